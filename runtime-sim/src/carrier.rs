@@ -65,9 +65,11 @@ impl Carrier {
 
     /// No machine takes an item from there.
     pub fn is_final(&self) -> bool {
-        matches!(
-            self,
-            Carrier::Sink { .. } | Carrier::Collector | Carrier::Part { .. } | Carrier::Shipped { .. }
-        )
+        self.is_gone() || matches!(self, Carrier::Part { .. })
+    }
+
+    /// Nothing happens to the item any more.
+    pub fn is_gone(&self) -> bool {
+        matches!(self, Carrier::Sink { .. } | Carrier::Collector | Carrier::Shipped { .. })
     }
 }

@@ -2,26 +2,66 @@
 
 use crate::carrier::Carrier;
 use crate::event::Event;
-use crate::item::{Item, Items};
+use crate::item::Items;
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Replays the log from the start, where every item is in the supply: each handover has to begin at the
 /// carrier that the replay knows, no gripper may bear two items, nothing comes back from the collector or
 /// from an order, and the end has to be what `items` says, on the items and on the machines alike.
-pub fn conservation(log: &[Event], items: &Items) -> Result<(), String> {
-    let end: &[Item] = items.all();
-    let mut carriers = vec![Carrier::Supply; end.len()];
-    // The item that the gripper of each machine holds.
-    let mut held = vec![None; items.machines()];
-    let mut last_scan = 0;
-    for event in log {
-        let Event::Item { scan, item, from, to, point } = *event else { continue };
-        let Some(carrier) = carriers.get(item).copied() else {
+#[derive(Clone, Debug)]
+pub struct Conservation {
+    /// Of each item, whether it has left the supply.
+    left: Vec<bool>,
+    /// Carriers of those that have left it, until they are gone for good.
+    carriers: BTreeMap<usize, Carrier>,
+    /// Of those that are gone, the sum of their [`gone`].
+    gone: u64,
+    /// The item that the gripper of each machine holds.
+    held: Vec<Option<usize>>,
+    last_scan: u64,
+    /// The first one.
+    violation: Option<String>,
+}
+
+impl Conservation {
+    /// Of these items, before anything has become of them.
+    pub fn new(items: &Items) -> Self {
+        Self {
+            left: vec![false; items.count()],
+            carriers: BTreeMap::new(),
+            gone: 0,
+            held: vec![None; items.machines()],
+            last_scan: 0,
+            violation: None,
+        }
+    }
+
+    /// All events of a run have to be taken, in their order.
+    pub fn take(&mut self, events: &[Event]) {
+        for event in events {
+            if self.violation.is_none() {
+                self.violation = self.follow(event).err();
+            }
+        }
+    }
+
+    fn follow(&mut self, event: &Event) -> Result<(), String> {
+        let Event::Item { scan, item, from, to, point } = *event else { return Ok(()) };
+        let Some(has_left) = self.left.get(item) else {
             return Err(format!("scan {scan}: item {item} does not exist"));
         };
-        if scan < last_scan {
-            return Err(format!("scan {scan} is logged after scan {last_scan}"));
+        if scan < self.last_scan {
+            return Err(format!("scan {scan} is logged after scan {}", self.last_scan));
         }
-        last_scan = scan;
+        self.last_scan = scan;
+        let carrier = match has_left {
+            true => self.carriers.get(&item).copied(),
+            false => Some(Carrier::Supply),
+        };
+        let Some(carrier) = carrier else {
+            return Err(format!("scan {scan}: item {item} goes from {from:?} to {to:?} but was gone"));
+        };
         if carrier != from {
             return Err(format!("scan {scan}: item {item} leaves {from:?} but was at {carrier:?}"));
         }
@@ -34,31 +74,71 @@ pub fn conservation(log: &[Event], items: &Items) -> Result<(), String> {
             return Err(format!("scan {scan}: item {item} is nowhere"));
         }
         if let Carrier::Grip { machine, .. } = to
-            && let Some(other) = held[machine].replace(item)
+            && let Some(other) = self.held[machine].replace(item)
         {
             return Err(format!("scan {scan}: gripper {machine} holds item {other} and takes item {item}"));
         }
         if let Carrier::Grip { machine, .. } = from {
-            held[machine] = None;
+            self.held[machine] = None;
         }
-        carriers[item] = to;
-    }
-    for (item, (carrier, found)) in carriers.iter().zip(end).enumerate() {
-        if *carrier != found.carrier {
-            return Err(format!("item {item} ends at {:?}, by the log at {carrier:?}", found.carrier));
+        self.left[item] = true;
+        if to.is_gone() {
+            self.carriers.remove(&item);
+            self.gone = self.gone.wrapping_add(gone(item, to));
+        } else {
+            self.carriers.insert(item, to);
         }
+        Ok(())
     }
-    let mut counts = vec![0; items.machines()];
-    for machine in carriers.iter().filter_map(Carrier::machine) {
-        counts[machine] += 1;
-    }
-    for (machine, by_log) in counts.into_iter().enumerate() {
-        let borne = items.borne_by(machine);
-        if borne.len() != by_log || borne.iter().any(|&i| carriers[i].machine() != Some(machine)) {
-            return Err(format!("machine {machine} bears items {borne:?}, by the log {by_log} items"));
+
+    /// After the last event.
+    pub fn end(self, items: &Items) -> Result<(), String> {
+        if let Some(violation) = self.violation {
+            return Err(violation);
         }
+        let mut counts = vec![0; items.machines()];
+        let mut all_gone = 0_u64;
+        for (item, found) in items.all().enumerate() {
+            let carrier = self.carriers.get(&item);
+            let is_so = match carrier {
+                Some(carrier) => *carrier == found.carrier,
+                None if self.left[item] => found.carrier.is_gone(),
+                None => found.carrier == Carrier::Supply,
+            };
+            if !is_so {
+                return Err(format!("item {item} ends at {:?}, by the log at {carrier:?}", found.carrier));
+            }
+            if let Some(machine) = carrier.and_then(Carrier::machine) {
+                counts[machine] += 1;
+            }
+            if found.carrier.is_gone() {
+                all_gone = all_gone.wrapping_add(gone(item, found.carrier));
+            }
+        }
+        if all_gone != self.gone {
+            return Err("items that are gone are elsewhere than by the log".into());
+        }
+        for (machine, by_log) in counts.into_iter().enumerate() {
+            let borne = items.borne_by(machine);
+            let is_here = |item: &usize| self.carriers.get(item).and_then(Carrier::machine) == Some(machine);
+            if borne.len() != by_log || !borne.iter().all(is_here) {
+                return Err(format!("machine {machine} bears items {borne:?}, by the log {by_log} items"));
+            }
+        }
+        Ok(())
     }
-    Ok(())
+}
+
+/// A number for an item and where it has gone.
+fn gone(item: usize, to: Carrier) -> u64 {
+    let mut hash = DefaultHasher::new();
+    let to = match to {
+        Carrier::Sink { machine, part } => [0, machine, part],
+        Carrier::Shipped { order } => [1, order, 0],
+        _ => [2, 0, 0],
+    };
+    (item, to).hash(&mut hash);
+    hash.finish()
 }
 
 #[cfg(test)]
@@ -103,7 +183,13 @@ mod tests {
     }
 
     fn verdict(items: &Items) -> Result<(), String> {
-        conservation(items.log(), items)
+        verdict_on(items.log().since(0), items)
+    }
+
+    fn verdict_on(log: &[Event], items: &Items) -> Result<(), String> {
+        let mut conservation = Conservation::new(items);
+        conservation.take(log);
+        conservation.end(items)
     }
 
     #[test]
@@ -139,10 +225,10 @@ mod tests {
     fn the_end_is_that_of_the_log() {
         let mut items = items();
         items.pass(0, bin(1), Point::default());
-        let mut log = items.log().to_vec();
+        let mut log = items.log().since(0).to_vec();
         let Event::Item { to, .. } = &mut log[0] else { unreachable!() };
         *to = Carrier::Place { machine: 1, part: 0, offset: Point::new(0.1, 0.0, 0.0) };
-        assert!(conservation(&log, &items).unwrap_err().starts_with("item 0 ends at"));
+        assert!(verdict_on(&log, &items).unwrap_err().starts_with("item 0 ends at"));
     }
 
     #[test]

@@ -129,6 +129,7 @@ impl History {
 
     /// The plant has obeyed the outputs of a scan, and nothing has moved yet.
     pub(crate) fn look(&mut self, plant: &Plant) {
+        self.take_events(plant);
         let now_ms = plant.now_ms();
         for (machine, history) in self.machines.iter_mut().enumerate() {
             history.look(machine, plant, now_ms);
@@ -145,8 +146,12 @@ impl History {
     }
 
     pub(crate) fn finish(mut self, plant: &Plant) -> Self {
-        self.events = plant.items().log().to_vec();
+        self.take_events(plant);
         self
+    }
+
+    fn take_events(&mut self, plant: &Plant) {
+        self.events.extend(plant.items().log().since(self.events.len()));
     }
 }
 

@@ -1,72 +1,108 @@
 //! Items, and the one carrier that each of them has at every moment.
 
+mod states;
+
 use crate::carrier::Carrier;
-use crate::event::{Event, OrderChange};
+use crate::event::{Event, Log, OrderChange};
 use crate::line::Line;
 use crate::point::Point;
+use states::States;
+use std::collections::BTreeMap;
+use std::ops::Index;
+use std::sync::Arc;
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Item {
     pub kind: usize,
     pub carrier: Carrier,
 }
 
-/// Names of all items, in the order of the supply: the kind and the number among those of this kind, from 1,
-/// such as `battery_1`.
-pub fn names(line: &Line) -> Vec<String> {
-    let mut counts = vec![0; line.kinds.len()];
-    let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
-    kinds
-        .map(|&kind| {
+/// What the items of a line's supply are called.
+#[derive(Clone, Debug)]
+pub struct Names {
+    kinds: Arc<[String]>,
+    /// Of each item its kind, and its number among those of this kind.
+    items: Arc<[[u32; 2]]>,
+}
+
+impl Names {
+    pub fn new(line: &Line) -> Self {
+        let mut counts = vec![0; line.kinds.len()];
+        let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
+        let numbered = kinds.map(|&kind| {
             counts[kind] += 1;
-            format!("{}_{}", line.kinds[kind].name, counts[kind])
-        })
-        .collect()
+            [kind as u32, counts[kind]]
+        });
+        Self { items: numbered.collect(), kinds: line.kinds.iter().map(|kind| kind.name.clone()).collect() }
+    }
+
+    /// The kind that an item has when it comes from the supply, and its number among those of this kind, from 1, such as
+    /// `battery_1`.
+    pub fn name(&self, item: usize) -> String {
+        let [kind, number] = self.items[item];
+        format!("{}_{number}", self.kinds[kind as usize])
+    }
+
+    /// Of all items, in the order of the supply.
+    pub fn all(&self) -> Vec<String> {
+        (0..self.items.len()).map(|item| self.name(item)).collect()
+    }
 }
 
 /// All items of a run, with the log of what became of them.
 #[derive(Clone, Debug)]
 pub struct Items {
-    list: Vec<Item>,
+    states: States,
+    /// Of an item those that became parts of it, in the order in which they did.
+    parts: BTreeMap<usize, Vec<usize>>,
     /// Items that each machine bears, in the order in which they came.
     pub(crate) borne: Vec<Vec<usize>>,
     /// Items on the ground or on obstacles.
     fallen: Vec<usize>,
-    log: Vec<Event>,
+    log: Log,
     pub(crate) scan: u64,
     /// What broke a machine, and which.
     crash: Option<(usize, String)>,
 }
 
+impl Index<usize> for Items {
+    type Output = Item;
+
+    fn index(&self, item: usize) -> &Item {
+        self.states.of(item)
+    }
+}
+
 impl Items {
     /// The items of the line's supply, none of them on the line yet.
     pub fn new(line: &Line) -> Self {
-        let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
         Self {
-            list: kinds.map(|&kind| Item { kind, carrier: Carrier::Supply }).collect(),
+            states: States::new(line.scenario.supply.iter().flat_map(|supply| supply.items.iter().copied())),
+            parts: BTreeMap::new(),
             borne: vec![Vec::new(); line.machines.len()],
             fallen: Vec::new(),
-            log: Vec::new(),
+            log: Log::default(),
             scan: 0,
             crash: None,
         }
     }
 
-    pub fn all(&self) -> &[Item] {
-        &self.list
+    pub fn get(&self, item: usize) -> Option<&Item> {
+        (item < self.count()).then(|| &self[item])
+    }
+
+    /// In the order of the supply.
+    pub fn all(&self) -> impl DoubleEndedIterator<Item = &Item> + ExactSizeIterator {
+        (0..self.count()).map(|item| &self[item])
+    }
+
+    pub fn count(&self) -> usize {
+        self.states.count()
     }
 
     /// Items that became parts of another one, in the order in which they did.
     pub fn parts_of(&self, of: usize) -> Vec<usize> {
-        let mut parts = Vec::new();
-        for event in &self.log {
-            let Event::Item { item, to, .. } = event else { continue };
-            parts.retain(|other| other != item);
-            if *to == (Carrier::Part { of }) {
-                parts.push(*item);
-            }
-        }
-        parts
+        self.parts.get(&of).cloned().unwrap_or_default()
     }
 
     pub fn borne_by(&self, machine: usize) -> &[usize] {
@@ -83,13 +119,18 @@ impl Items {
         self.borne.len()
     }
 
-    pub fn log(&self) -> &[Event] {
+    pub fn log(&self) -> &Log {
         &self.log
+    }
+
+    /// Everyone has read the first `read` events.
+    pub(crate) fn forget_events(&mut self, read: usize) {
+        self.log.forget(read);
     }
 
     /// Hands an item over to another carrier, at `point`.
     pub(crate) fn pass(&mut self, item: usize, to: Carrier, point: Point) {
-        let from = std::mem::replace(&mut self.list[item].carrier, to);
+        let from = self.states.carry(item, to);
         if let Some(machine) = from.machine() {
             self.borne[machine].retain(|&other| other != item);
         }
@@ -102,12 +143,22 @@ impl Items {
         if matches!(to, Carrier::Floor { .. }) {
             self.fallen.push(item);
         }
+        if let Carrier::Part { of } = from
+            && let Some(parts) = self.parts.get_mut(&of)
+        {
+            parts.retain(|&other| other != item);
+        }
+        if let Carrier::Part { of } = to {
+            self.parts.entry(of).or_default().push(item);
+        } else if to.is_final() {
+            self.parts.remove(&item);
+        }
         self.log.push(Event::Item { scan: self.scan, item, from, to, point });
     }
 
     /// An item becomes one of another kind.
     pub(crate) fn remake(&mut self, item: usize, kind: usize) {
-        if std::mem::replace(&mut self.list[item].kind, kind) != kind {
+        if self.states.remake(item, kind) != kind {
             self.log.push(Event::Kind { scan: self.scan, item, kind });
         }
     }

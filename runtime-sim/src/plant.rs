@@ -18,7 +18,7 @@ pub(crate) use delay::{Arrived, Bus};
 
 use crate::carrier::Carrier;
 use crate::frame::Frame;
-use crate::item::Items;
+use crate::item::{Items, Names};
 use crate::kinematics::arm::Joints;
 use crate::line::{Line, Obstacle};
 use crate::memory::Memory;
@@ -31,7 +31,6 @@ use conveyed::Conveyed;
 use conveying::{Among, Conveying, Falls};
 pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use gripping::{Lying, NextLook};
-use std::sync::Arc;
 use trajectory::Trajectory;
 use upright::Upright;
 use working::{Shared, Working};
@@ -48,7 +47,7 @@ pub struct Plant {
     conveying: Conveying,
     items: Items,
     /// Of all items, for reports.
-    names: Arc<[String]>,
+    names: Names,
     /// Of the kinds: over the underside of an item, where it is gripped, m.
     grasps: Vec<f64>,
     /// Of the kinds.
@@ -102,7 +101,7 @@ impl Plant {
             machines,
             conveying: Conveying::new(line),
             items,
-            names: crate::item::names(line).into(),
+            names: Names::new(line),
             grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
             bodies: line.kinds.iter().map(Upright::of).collect(),
             obstacles: line.obstacles.clone(),
@@ -165,7 +164,7 @@ impl Plant {
     /// happens ([`Self::next_change`]).
     pub fn proceed_to(&mut self, scan: u64) {
         self.items.scan = scan;
-        let logged = self.items.log().len();
+        let logged = self.items.log().count();
         while let Some(falls) =
             self.convey(|conveying, among, scan_ms| conveying.proceed(among, scan * scan_ms))
         {
@@ -189,7 +188,7 @@ impl Plant {
         working(machines).for_each(|machine| machine.withdraw(&mut shared));
         self.wake_concerned(next_ms);
         self.scan = scan;
-        self.has_handed = self.items.log().len() > logged;
+        self.has_handed = self.items.log().count() > logged;
         self.sight();
         self.write_images();
     }
@@ -234,18 +233,18 @@ impl Plant {
     }
 
     fn crash_onto(&mut self, machine: usize, two: [usize; 2], lies: &str) {
-        let [upper, lower] = two.map(|item| &self.names[item]);
+        let [upper, lower] = two.map(|item| self.names.name(item));
         self.items.crash(machine, format!("{upper} comes down on {lower}, {lies}"));
     }
 
     /// The machine of a place and an item there in which another one would be, however both are turned.
     fn is_in(&self, item: usize, lands: &Carrier) -> Option<(usize, usize)> {
         let Carrier::Place { machine, part, offset } = *lands else { return None };
-        let body = |item: usize| self.bodies[self.items.all()[item].kind];
+        let body = |item: usize| self.bodies[self.items[item].kind];
         let others = self.items.borne_by(machine).iter().copied().filter(|other| *other != item);
         let mut others = others.filter(|other| self.upper(*other).is_none());
         let found = others.find(|other| {
-            let Carrier::Place { part: of, offset: lies, .. } = self.items.all()[*other].carrier else {
+            let Carrier::Place { part: of, offset: lies, .. } = self.items[*other].carrier else {
                 return false;
             };
             of == part && body(item).is_in(offset, &body(*other), lies)
@@ -280,7 +279,7 @@ impl Plant {
 
     /// Where the upper side of an item faces, a unit vector; none for up.
     pub fn upper(&self, item: usize) -> Option<Point> {
-        let carrier = &self.items.all().get(item)?.carrier;
+        let carrier = &self.items.get(item)?.carrier;
         self.machines.get(carrier.machine()?)?.upper(carrier, &self.items, &self.desk)
     }
 
@@ -315,13 +314,18 @@ impl Plant {
 
     /// Where the underside of an item is; `None` if it is not on the line (supply, collector, shipped).
     pub fn place(&self, item: usize) -> Option<Point> {
-        match self.items.all().get(item)?.carrier {
+        match self.items.get(item)?.carrier {
             Carrier::Floor { point } => Some(point),
             carrier => {
                 let machine = self.machines.get(carrier.machine()?)?;
                 machine.place(item, &carrier, &self.items, &self.desk)
             }
         }
+    }
+
+    /// Everyone has read the first `read` events.
+    pub(crate) fn forget_events(&mut self, read: usize) {
+        self.items.forget_events(read);
     }
 
     /// Where a machine is: the tool of an arm, the position of a vehicle, the pose of what does not move.
@@ -336,7 +340,7 @@ impl Plant {
 
     /// Where the vehicle on a track is that carries an item, and how it is turned.
     pub(crate) fn vehicle_under(&self, item: usize) -> Option<Frame> {
-        let Carrier::Place { machine, part, .. } = self.items.all().get(item)?.carrier else { return None };
+        let Carrier::Place { machine, part, .. } = self.items.get(item)?.carrier else { return None };
         self.machines.get(machine)?.vehicle_under(part).map(Driving::frame_now)
     }
 
@@ -347,14 +351,14 @@ impl Plant {
 
     /// How an item on a conveyor, or at a place that a cylinder or a positioner carries, continues from now.
     pub(crate) fn conveyed(&self, item: usize) -> Option<Conveyed> {
-        let carrier = &self.items.all().get(item)?.carrier;
+        let carrier = &self.items.get(item)?.carrier;
         let machine = self.machines.get(carrier.machine()?)?;
         machine.conveyed(item, carrier, &self.items, &self.desk, self.now_ms())
     }
 
     /// Whether two items lie on conveyors of which one leads onto the other.
     pub(crate) fn are_in_line(&self, items: [usize; 2]) -> bool {
-        let lane = |item: usize| match self.items.all()[item].carrier {
+        let lane = |item: usize| match self.items[item].carrier {
             Carrier::Lane { machine, part, .. } => Some((machine, part)),
             _ => None,
         };

@@ -3,13 +3,13 @@
 use crate::account::Account;
 use crate::carrier::Carrier;
 use crate::collision::Contact;
-use crate::event::{Event, OrderChange};
 use crate::item;
 use crate::json::Json;
 use crate::line::{Goal, Line};
 use crate::machine::Machine;
 use crate::monitor;
 use crate::plant::Plant;
+use crate::run;
 use crate::shortage::point_text;
 use std::collections::BTreeMap;
 
@@ -81,7 +81,7 @@ pub struct MachineReport {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ItemReport {
     pub id: usize,
-    /// As [`item::names`] gives it.
+    /// As [`item::Names`] gives it.
     pub name: String,
     pub kind: String,
     /// Such as `tray of agv1`.
@@ -98,6 +98,8 @@ pub(crate) struct Outcome {
     pub fault: Option<(i32, Option<usize>)>,
     pub scans: u64,
     pub accounts: Vec<Account>,
+    /// Of all orders.
+    pub order_times: Vec<run::OrderTimes>,
     /// Number of the last state of each machine.
     pub states: Vec<usize>,
     pub trace_hash: u64,
@@ -113,43 +115,27 @@ fn names(line: &Line, machines: &[usize]) -> String {
 impl Report {
     pub(crate) fn new(line: &Line, plant: &Plant, outcome: Outcome) -> Self {
         let seconds = |scans: u64| seconds(scans, line.scan_ms);
-        let mut order_times: Vec<OrderTimes> = line
-            .scenario
-            .orders
-            .iter()
-            .enumerate()
-            .map(|(i, order)| OrderTimes {
-                number: i + 1,
-                station: names(line, &order.stations),
-                opened_s: None,
-                made_s: None,
-            })
-            .collect();
-        for event in plant.items().log() {
-            let Event::Order { scan, machine, order, change } = *event else { continue };
-            let times = &mut order_times[order];
-            match change {
-                OrderChange::Opened => times.opened_s = times.opened_s.or(Some(seconds(scan))),
-                OrderChange::Made => {
-                    times.made_s = Some(seconds(scan));
-                    times.station = line.machines[machine].name.clone();
-                }
-                OrderChange::Refused | OrderChange::Withdrawn => {}
-            }
-        }
+        let of_orders = line.scenario.orders.iter().zip(&outcome.order_times).enumerate();
+        let of_orders = of_orders.map(|(i, (order, times))| OrderTimes {
+            number: i + 1,
+            station: match times.made {
+                Some((_, machine)) => line.machines[machine].name.clone(),
+                None => names(line, &order.stations),
+            },
+            opened_s: times.opened.map(seconds),
+            made_s: times.made.map(|(scan, _)| seconds(scan)),
+        });
         let is_endless = line.scenario.goal == Goal::TimeLimit;
-        if is_endless {
-            order_times.retain(|times| times.opened_s.is_some());
-        }
+        let order_times: Vec<_> = of_orders.filter(|times| !is_endless || times.opened_s.is_some()).collect();
         let orders_done = order_times.iter().filter(|times| times.made_s.is_some()).count();
         let simulated_s = seconds(outcome.scans);
-        let names = item::names(line);
-        let items = plant.items().all().iter().zip(names).enumerate();
+        let names = item::Names::new(line);
+        let items = plant.items().all().enumerate();
         let is_on_line = |carrier: Carrier| carrier != Carrier::Supply && !carrier.is_final();
-        let items = items.filter(|(_, (item, _))| !is_endless || is_on_line(item.carrier));
-        let items = items.map(|(id, (item, name))| ItemReport {
+        let items = items.filter(|(_, item)| !is_endless || is_on_line(item.carrier));
+        let items = items.map(|(id, item)| ItemReport {
             id,
-            name,
+            name: names.name(id),
             kind: line.kinds[item.kind].name.clone(),
             carrier: carrier_text(line, item.carrier),
             place: plant.place(id).map_or_else(|| "-".into(), point_text),
@@ -283,7 +269,7 @@ fn collected(line: &Line, plant: &Plant) -> Option<[u64; 2]> {
     for sink in sinks {
         let is_here = Carrier::Sink { machine: sink.machine, part: sink.part };
         for (kind, &asked) in sink.items.iter().enumerate() {
-            let items = plant.items().all().iter();
+            let items = plant.items().all();
             let here = items.filter(|item| item.carrier == is_here && item.kind == kind).count() as u64;
             sums[0] += here.min(u64::from(asked));
             sums[1] += u64::from(asked);

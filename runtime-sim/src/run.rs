@@ -3,12 +3,13 @@
 mod accounts;
 mod agenda;
 mod changes;
+mod order_times;
 mod power;
 mod progress;
 
 use crate::account::Activity;
 use crate::collision::{CollisionCheck, Contact};
-use crate::conservation::conservation;
+use crate::conservation::Conservation;
 use crate::history::{History, Stay};
 use crate::io_trace::Source as Word;
 use crate::line::Line;
@@ -23,6 +24,7 @@ use crate::wiring::{Drives, Source};
 use accounts::Accounts;
 use agenda::Agenda;
 use changes::Changes;
+pub(crate) use order_times::OrderTimes;
 use power::Unpowered;
 use progress::Progress;
 
@@ -141,6 +143,10 @@ fn simulate(
     let mut answer = SystemOutputs::default();
     let mut trace = Vec::new();
     let mut progress = Progress::new(line);
+    let mut conservation = Conservation::new(plant.items());
+    let mut order_times = vec![OrderTimes::default(); line.scenario.orders.len()];
+    // Events that were handled.
+    let mut read = 0;
     let mut scan = 0;
     // In `Checked`: before this scan nothing happens.
     let mut quiet_until = 0;
@@ -238,9 +244,9 @@ fn simulate(
         }
         let (next, collision) = check.look_until(&plant, memory, scan, next);
         let collision = collision.map(collision_text);
-        let logged = plant.items().log().len();
+        let logged = plant.items().log().count();
         plant.proceed_to(next);
-        if stepping == Stepping::Checked && next < quiet_until && plant.items().log().len() > logged {
+        if stepping == Stepping::Checked && next < quiet_until && plant.items().log().count() > logged {
             return Err(format!("an item or an order changes before scan {next}, which would be left out"));
         }
         if is_alive {
@@ -267,6 +273,13 @@ fn simulate(
             }
         }
         scan = next;
+        let events = plant.items().log().since(read);
+        conservation.take(events);
+        order_times::note(&mut order_times, events);
+        progress.count(line, &plant, scan, events);
+        // Those of this round are read in the next one too.
+        plant.forget_events(read);
+        read = plant.items().log().count();
         if answer.fault {
             let machine =
                 usize::try_from(answer.fault_robot).ok().filter(|&robot| robot < line.machines.len());
@@ -281,7 +294,7 @@ fn simulate(
         }
     };
     lose_power(line, controllers, &agenda, scan);
-    let (finished, reason) = match conservation(plant.items().log(), plant.items()) {
+    let (finished, reason) = match conservation.end(plant.items()) {
         Ok(()) => (finished, reason),
         Err(violation) => (false, format!("bug: {violation}")),
     };
@@ -291,6 +304,7 @@ fn simulate(
         fault,
         scans: scan,
         accounts: accounts.until(scan),
+        order_times,
         states,
         trace_hash: changes.hash(),
         collisions: check.into_contacts(),

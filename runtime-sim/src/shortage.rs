@@ -24,7 +24,7 @@ pub fn shortage(line: &Line, plant: &Plant) -> String {
             state_of(line, plant, machine, order)
         ));
     }
-    for (index, item) in plant.items().all().iter().enumerate() {
+    for (index, item) in plant.items().all().enumerate() {
         let kind = &line.kinds[item.kind].name;
         let on = |machine: usize, what: &str| format!("{what} of {}", line.machines[machine].name);
         let carrier = match item.carrier {
@@ -43,7 +43,7 @@ pub fn shortage(line: &Line, plant: &Plant) -> String {
     }
     for (kind, name) in line.kinds.iter().map(|kind| &kind.name).enumerate() {
         let parts = |wanted: fn(&Carrier) -> bool| {
-            plant.items().all().iter().filter(|item| item.kind == kind && wanted(&item.carrier)).count()
+            plant.items().all().filter(|item| item.kind == kind && wanted(&item.carrier)).count()
         };
         let collected = parts(|carrier| matches!(carrier, Carrier::Sink { .. } | Carrier::Collector));
         if collected > 0 {
@@ -58,12 +58,12 @@ fn state_of(line: &Line, plant: &Plant, machine: usize, order: usize) -> String 
     let mut surplus = Vec::new();
     for (kind, &wanted) in line.scenario.orders[order].parts.iter().enumerate() {
         let name = &line.kinds[kind].name;
-        let items = plant.items().all();
+        let items = plant.items();
         let held = plant.items().borne_by(machine).iter().filter(|&&item| items[item].kind == kind).count();
         let wanted = wanted as usize;
         if held < wanted {
             let to_come =
-                items.iter().filter(|item| item.kind == kind && can_come(line, &item.carrier)).count();
+                items.all().filter(|item| item.kind == kind && can_come(line, &item.carrier)).count();
             let none_left = if to_come == 0 { " (none left)" } else { "" };
             lacks.push(match wanted - held {
                 1 => format!("{name}{none_left}"),

@@ -20,7 +20,7 @@ const SINK: Carrier = Carrier::Sink { machine: 0, part: 2 };
 type Places = Vec<Vec<(Carrier, Option<Point>)>>;
 
 fn places(plant: &Plant) -> Vec<(Carrier, Option<Point>)> {
-    plant.items().all().iter().enumerate().map(|(i, item)| (item.carrier, plant.place(i))).collect()
+    plant.items().all().enumerate().map(|(i, item)| (item.carrier, plant.place(i))).collect()
 }
 
 fn recorded(line: &Line, steps: Vec<Step>) -> (Report, Vec<Path>, Places) {
@@ -268,7 +268,7 @@ fn the_table_has_every_interval_and_every_corner() {
     assert!(table.starts_with("item,kind,t,x,y,z,carrier\npump_1,pump,"), "{table}");
     let rows = rows(&table);
     for (item, path) in [(1, &paths[1]), (0, &paths[0])] {
-        let name = &item::names(&line)[item];
+        let name = item::Names::new(&line).name(item);
         let own: Vec<_> = rows.iter().filter(|row| row.0 == *name).collect();
         assert!(own.windows(2).all(|pair| pair[0].1 <= pair[1].1 && pair[0] != pair[1]));
         for row in &own {

@@ -4,6 +4,7 @@
 use autogen::executor::Executor;
 use autogen_tests::{Texts, side_by_side};
 use runtime_sim::carrier::Carrier;
+use runtime_sim::item::Item;
 use runtime_sim::memory::Memory;
 use runtime_sim::report::Report;
 use runtime_sim::run::{Seen, Stepping, run_again};
@@ -102,7 +103,7 @@ fn what_is_gripped_from_a_little_above_hangs_at_the_tool() {
     );
     let mut hanging = 0;
     let report = run(&texts, |seen| {
-        for (item, all) in seen.plant.items().all().iter().enumerate() {
+        for (item, all) in seen.plant.items().all().enumerate() {
             let Carrier::Grip { machine, .. } = all.carrier else { continue };
             let places = [seen.plant.position(machine), seen.plant.place(item)];
             let [tool, place] = places.map(|place| place.expect("it is on the line"));
@@ -255,10 +256,8 @@ fn a_process_frees_the_parts_of_an_item() {
     let texts = taken_apart("slots: [point(0, 0, 0), point(0, 0.16, 0)]");
     run(&texts, |seen: &Seen| {
         let items = seen.plant.items().all();
-        ends = items
-            .iter()
-            .map(|item| (item.kind, item.carrier.offset().map(|at| [at.x, at.y, at.z])))
-            .collect();
+        let ended = |item: &Item| (item.kind, item.carrier.offset().map(|at| [at.x, at.y, at.z]));
+        ends = items.map(ended).collect();
     });
     // Kinds: 0 base, 1 lid.
     assert!(ends.contains(&(1, Some([0.0, 0.16, 0.0]))), "{ends:?}");
@@ -274,12 +273,12 @@ fn a_press_joins_what_lies_in_it_and_nothing_less() {
     let texts = side_by_side("scenes/assembler");
     let mut ends = Vec::new();
     run(&texts, |seen: &Seen| {
-        let name = |item: usize| seen.plant.items().all()[item].kind;
-        let part_of = |item: usize| match seen.plant.items().all()[item].carrier {
+        let name = |item: usize| seen.plant.items()[item].kind;
+        let part_of = |item: usize| match seen.plant.items()[item].carrier {
             Carrier::Part { of } => Some((name(item), name(of))),
             _ => None,
         };
-        ends = (0..seen.plant.items().all().len()).map(part_of).collect();
+        ends = (0..seen.plant.items().count()).map(part_of).collect();
     });
     // Kinds: 0 base, 1 lid, 2 box. Each lid is a part of a box.
     assert_eq!(ends, [None, None, Some((1, 2)), Some((1, 2))]);

@@ -271,9 +271,9 @@ fn recorded_paths_are_where_the_items_are() {
         let project = outcome.project.unwrap_or_else(|| panic!("{name}: {:?}", outcome.diagnostics));
         let mut seen = Vec::new();
         let mut observe = |scan: &Seen| {
-            let items = scan.plant.items().all();
+            let items = scan.plant.items();
             let places: Vec<_> =
-                items.iter().enumerate().map(|(i, item)| (item.carrier, scan.plant.place(i))).collect();
+                items.all().enumerate().map(|(i, item)| (item.carrier, scan.plant.place(i))).collect();
             seen.push((scan.scan * u64::from(project.plant.scan_ms), places));
         };
         let mut executor = Executor::new(&project.system);

@@ -32,17 +32,17 @@ fn the_sorting_station_takes_the_time_of_its_closed_form() {
         let mut read = 0;
         let mut observer = |seen: &Seen| {
             let log = seen.plant.items().log();
-            for event in &log[read..] {
+            for event in log.since(read) {
                 let Event::Item { scan, item, from, to, .. } = *event else { continue };
                 let now_s = (scan * u64::from(scan_ms)) as f64 / 1000.0;
                 if from == Carrier::Supply {
                     put.push(now_s);
                 }
                 if let Carrier::Sink { .. } = to {
-                    times.push((seen.plant.items().all()[item].kind, now_s - put[item]));
+                    times.push((seen.plant.items()[item].kind, now_s - put[item]));
                 }
             }
-            read = log.len();
+            read = log.count();
         };
         let mut texts = side_by_side("sorting/sorting");
         texts.layout = texts.layout.replacen('{', &format!("{{\"scan_ms\": {scan_ms}, "), 1);
@@ -73,12 +73,12 @@ fn the_tending_cell_takes_the_time_of_its_closed_form() {
     let mut read = 0;
     let mut observer = |seen: &Seen| {
         let log = seen.plant.items().log();
-        for event in &log[read..] {
+        for event in log.since(read) {
             if let Event::Item { scan, to: Carrier::Sink { .. }, .. } = *event {
                 collected.push(scan as f64 / 100.0);
             }
         }
-        read = log.len();
+        read = log.count();
     };
     let report = run(side_by_side("tending/tending"), &mut observer);
     assert_eq!(report.reason, "all items collected");
@@ -178,12 +178,12 @@ fn a_loop_of_twenty_modules_brings_all_items_to_their_exits() {
     let (mut rounds, mut read) = (0, 0);
     let mut observe = |seen: &Seen| {
         let log = seen.plant.items().log();
-        for event in &log[read..] {
+        for event in log.since(read) {
             let Event::Item { to, .. } = *event else { continue };
             let is_back = to.machine().is_some_and(|machine| machine == last);
             rounds += usize::from(is_back);
         }
-        read = log.len();
+        read = log.count();
     };
     let report = run(texts, &mut observe);
     assert_eq!(report.reason, "all items collected");

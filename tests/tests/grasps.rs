@@ -42,7 +42,7 @@ fn hangs(texts: &Texts) -> (Report, Vec<f64>) {
     let mut all = Vec::new();
     let report = run(texts, |seen: &Seen| {
         let plant = seen.plant;
-        for (number, item) in plant.items().all().iter().enumerate() {
+        for (number, item) in plant.items().all().enumerate() {
             if let (Carrier::Grip { machine, .. }, Some(place)) = (item.carrier, plant.place(number)) {
                 let tool = plant.position(machine).expect("a tool");
                 all.push((tool.z - place.z).hypot(tool.x - place.x));

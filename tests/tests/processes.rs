@@ -52,8 +52,7 @@ fn cycles(texts: &Texts) -> (Vec<u64>, Vec<String>) {
             }
             _ => {}
         }
-        kinds =
-            seen.plant.items().all().iter().map(|item| project.plant.kinds[item.kind].name.clone()).collect();
+        kinds = seen.plant.items().all().map(|item| project.plant.kinds[item.kind].name.clone()).collect();
     });
     for stepping in [Stepping::Events, Stepping::Checked] {
         assert_eq!(execute(stepping, &mut |_| {}), every, "{stepping:?}");

@@ -31,7 +31,7 @@ fn run(texts: &Texts) -> Run {
     let recorded = record(line, &mut executor, Stepping::Events, &watched, ignore).expect("a run");
     let results: Value = serde_json::from_str(&recorded.report.to_json()).expect("JSON");
     let page = report::html(&project, &outcome.sources, line, &recorded, &results);
-    let items: Vec<usize> = (0..item::names(line).len()).collect();
+    let items: Vec<usize> = (0..item::Names::new(line).all().len()).collect();
     let table = table_csv(line, &recorded.paths, &items, EVERY_MS);
     Run { recorded, results, page, table }
 }

@@ -104,7 +104,7 @@ fn data(project: &Project, sources: &Sources, line: &Line, recorded: &Recorded, 
     let acts = acts::acts(history, &signals, end);
     let path = limit::Run { line, events: &history.events, acts: &acts, end }.path();
     let types: Vec<usize> = system.instances.iter().map(|instance| instance.automaton.0).collect();
-    let names = item::names(line);
+    let names = item::Names::new(line).all();
     let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
     let becomes = recorded.paths.iter().map(|path| &path.becomes);
     let items =

@@ -52,7 +52,7 @@ impl Request {
 
     /// Whether the line has the items asked for.
     pub fn check(&self, line: &Line) -> Result<(), String> {
-        let known = item::names(line);
+        let known = item::Names::new(line).all();
         let Some(wrong) = self.items.iter().find(|name| !known.contains(name)) else { return Ok(()) };
         let kinds = line.kinds.iter().filter_map(|kind| {
             let of_kind = |name: &&String| name.rsplit_once('_').is_some_and(|(own, _)| own == kind.name);
@@ -72,7 +72,7 @@ impl Request {
 
     /// Writes the paths of all items of the line's supply: all files, or none.
     pub fn write(self, project: &Project, line: &Line, paths: &[path::Path]) -> Result<(), String> {
-        let names = item::names(line);
+        let names = item::Names::new(line).all();
         let chosen: Vec<usize> = match self.items.is_empty() {
             true => (0..names.len()).collect(),
             false => self.items.iter().filter_map(|own| names.iter().position(|name| name == own)).collect(),

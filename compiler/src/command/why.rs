@@ -118,7 +118,7 @@ impl Supplies {
     }
 
     fn look(&mut self, seen: &SeenScan, ms: u64) {
-        let items = seen.plant.items().all();
+        let items = seen.plant.items();
         for (_, last, since) in self.0.iter_mut().filter(|(.., since)| since.is_none()) {
             match last {
                 None => *since = Some(0),

@@ -14,7 +14,7 @@ use super::pair::{AT_ONCE, Known, Pair, Span, Touch};
 use crate::carrier::Carrier;
 use crate::event::Event;
 use crate::fingerprint::Fingerprint;
-use crate::item;
+use crate::item::Names;
 use crate::kinematics::facing::Facing;
 use crate::kinematics::pose::Pose;
 use crate::line::{self, Line};
@@ -23,6 +23,7 @@ use crate::part::place::OPPOSITE;
 use crate::plant::Plant;
 use crate::point::Point;
 use crate::solid::Shape;
+use std::collections::BTreeMap;
 
 /// That two came into contact.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +57,9 @@ pub struct CollisionCheck {
     due: Vec<usize>,
     /// The earliest end of what is known of them, seconds from the start of the run.
     known_until: f64,
-    items: Vec<Tracked>,
+    /// Items that have appeared, without those that are gone for good.
+    items: BTreeMap<usize, Tracked>,
+    names: Names,
     /// Of the kinds.
     sizes: Vec<Point>,
     /// Events that were handled.
@@ -70,7 +73,6 @@ pub struct CollisionCheck {
 /// An item: how large it is, how it is turned, and where it is among the bodies.
 #[derive(Clone, Debug)]
 struct Tracked {
-    name: String,
     /// Lengths along its own x, y and z.
     size: Point,
     /// About the vertical, since it appeared; while it hangs, that of the moment it was gripped.
@@ -81,6 +83,12 @@ struct Tracked {
     /// From the frame of the last link to the item's underside, while it hangs; from that of a vehicle on a track, while it
     /// lies there.
     hang: Pose,
+}
+
+impl Tracked {
+    fn new(size: Point) -> Self {
+        Self { size, turn: 0.0, tipped: Pose::IDENTITY, place: None, hang: Pose::IDENTITY }
+    }
 }
 
 impl CollisionCheck {
@@ -101,17 +109,9 @@ impl CollisionCheck {
         };
         let size = |kind: &line::Kind| Point::new(kind.size[0], kind.size[1], kind.height);
         let sizes: Vec<Point> = line.kinds.iter().map(size).collect();
-        let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
-        let items = item::names(line).into_iter().zip(kinds).map(|(name, &kind)| Tracked {
-            name,
-            size: sizes[kind],
-            turn: 0.0,
-            tipped: Pose::IDENTITY,
-            place: None,
-            hang: Pose::IDENTITY,
-        });
         Self {
-            items: items.collect(),
+            items: BTreeMap::new(),
+            names: Names::new(line),
             sizes,
             versions: vec![None; groups.len()],
             reaches: vec![Outer::NOTHING; groups.len()],
@@ -277,34 +277,40 @@ impl CollisionCheck {
     /// Where items have come to since the last time, and what they have become.
     pub(crate) fn follow_items(&mut self, plant: &Plant) {
         let log = plant.items().log();
-        for event in &log[self.read..] {
+        for event in log.since(self.read) {
             match *event {
                 Event::Item { item, to, .. } => {
                     self.leave(item, plant);
                     // What was passed on since is followed with its own event.
-                    if plant.items().all()[item].carrier == to {
+                    if plant.items()[item].carrier == to {
                         self.come(item, to, plant);
+                    }
+                    if to.is_gone() {
+                        self.items.remove(&item);
                     }
                 }
                 Event::Kind { item, kind, .. } => self.remake(item, self.sizes[kind], plant),
                 _ => {}
             }
         }
-        self.read = log.len();
+        self.read = log.count();
     }
 
     fn remake(&mut self, item: usize, size: Point, plant: &Plant) {
-        if std::mem::replace(&mut self.items[item].size, size) == size || self.items[item].place.is_none() {
+        let Some(tracked) = self.items.get_mut(&item) else { return };
+        if std::mem::replace(&mut tracked.size, size) == size || tracked.place.is_none() {
             return;
         }
         self.leave(item, plant);
-        self.come(item, plant.items().all()[item].carrier, plant);
+        self.come(item, plant.items()[item].carrier, plant);
     }
 
     fn leave(&mut self, item: usize, plant: &Plant) {
-        let Some((index, body)) = self.items[item].place.take() else { return };
+        let place = self.items.get_mut(&item).and_then(|tracked| tracked.place.take());
+        let Some((index, body)) = place else { return };
         self.expect(index, body);
-        let (tracked, group) = (&mut self.items[item], &mut self.groups[index]);
+        let Some(tracked) = self.items.get_mut(&item) else { return };
+        let group = &mut self.groups[index];
         if let Some(turn) = group.turn(body, plant) {
             tracked.turn = turn;
         }
@@ -328,7 +334,8 @@ impl CollisionCheck {
         // Groups of machines stand in the order of the machines.
         let (Some(index), Some(place)) = (to.machine(), plant.place(item)) else { return };
         let group = &mut self.groups[index];
-        let tracked = &mut self.items[item];
+        let size = self.sizes[plant.items()[item].kind];
+        let tracked = self.items.entry(item).or_insert_with(|| Tracked::new(size));
         let upper = plant.upper(item);
         let lies = match upper {
             Some(upper) => Pose { position: place, ..lying_on_its_side(&tracked.tipped, upper) },
@@ -356,7 +363,7 @@ impl CollisionCheck {
         };
         let middle = Pose { position: Point::new(0.0, 0.0, tracked.size.z / 2.0), ..Pose::IDENTITY };
         let shape = Shape::Box { size: tracked.size };
-        let piece = Piece::new(tracked.name.clone(), &frame.then(&middle), shape);
+        let piece = Piece::new(self.names.name(item), &frame.then(&middle), shape);
         let size = [tracked.size.x, tracked.size.y, tracked.size.z, tracked.turn];
         let turned = frame.rotation.into_iter().flatten();
         let hang = [frame.position.x, frame.position.y, frame.position.z];

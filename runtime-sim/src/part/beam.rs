@@ -71,7 +71,7 @@ impl Crossing {
             places.filter(move |(rider, place)| place - rider.half <= beam && place + rider.half > beam)
         });
         let items = see.items;
-        let kinds = riders.map(move |(rider, _)| items.all()[rider.item].kind);
+        let kinds = riders.map(move |(rider, _)| items[rider.item].kind);
         kinds.filter(|kind| self.is_seen[*kind])
     }
 }

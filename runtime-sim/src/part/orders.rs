@@ -108,7 +108,7 @@ impl Serving {
     /// Whether the place holds the parts of the order and no others.
     fn is_made(&self, order: &Order, see: &See) -> bool {
         order.parts.iter().enumerate().all(|(kind, &wanted)| {
-            let held = see.borne_by(self.place).filter(|&item| see.items.all()[item].kind == kind);
+            let held = see.borne_by(self.place).filter(|&item| see.items[item].kind == kind);
             held.count() == wanted as usize
         })
     }

@@ -135,7 +135,7 @@ impl Bearing {
             return None;
         }
         let tops = see.borne_by(self.part).filter_map(|item| {
-            let item = &see.items.all()[item];
+            let item = &see.items[item];
             let Carrier::Place { offset, .. } = item.carrier else { return None };
             let (size, from_middle) = (self.sizes[item.kind], point - offset);
             let is_over = from_middle.x.abs() < size.x / 2.0 && from_middle.y.abs() < size.y / 2.0;
@@ -186,8 +186,8 @@ impl Running for Bearing {
 
     /// Its underside is at the upper side of the other one, and over it.
     fn lies_on(&self, item: usize, see: &See) -> Option<usize> {
-        let on = |item: usize| match see.items.all()[item].carrier {
-            Carrier::Place { offset, .. } => Some((offset, self.sizes[see.items.all()[item].kind])),
+        let on = |item: usize| match see.items[item].carrier {
+            Carrier::Place { offset, .. } => Some((offset, self.sizes[see.items[item].kind])),
             _ => None,
         };
         let (under, size) = on(item).filter(|_| self.place.stacks)?;

@@ -295,7 +295,7 @@ impl Cycle {
         let mut joined = Vec::new();
         for (kind, name) in self.joins.iter().zip(&self.process.joins) {
             let is_wanted = |other: &usize| {
-                *other != item && !joined.contains(other) && Some(see.items.all()[*other].kind) == *kind
+                *other != item && !joined.contains(other) && Some(see.items[*other].kind) == *kind
             };
             joined.push(see.borne_by(self.process.place).find(is_wanted).ok_or(name.as_str())?);
         }
@@ -308,11 +308,11 @@ impl Cycle {
         for other in world.items.parts_of(item) {
             let see = world.see();
             let is_taken = |slot: &Point| {
-                let mut offsets = see.borne_by(place).filter_map(|item| see.items.all()[item].carrier.offset());
+                let mut offsets = see.borne_by(place).filter_map(|item| see.items[item].carrier.offset());
                 offsets.any(|offset| (offset - *slot).length() < NEAR)
             };
             let slot = self.slots.iter().find(|slot| !is_taken(slot)).copied();
-            let offset = slot.ok_or(see.items.all()[other].kind)?;
+            let offset = slot.ok_or(see.items[other].kind)?;
             world.lay(other, place, offset);
         }
         Ok(())
@@ -322,7 +322,7 @@ impl Cycle {
     fn lacks(&self, item: Option<usize>, world: &World) -> String {
         let see = world.see();
         let mut lacks = Vec::new();
-        match item.map(|item| see.items.all()[item].kind) {
+        match item.map(|item| see.items[item].kind) {
             None => lacks.push("an item".to_string()),
             Some(kind) if self.times[kind].is_none() => lacks.push(format!("a time for a {}", self.kinds[kind])),
             Some(_) => {}
@@ -360,7 +360,7 @@ impl Running for Cycle {
                 Some(item) => {
                     self.has_ended = false;
                     self.started = self.started.saturating_add(1);
-                    let kind = world.items.all()[item].kind;
+                    let kind = world.items[item].kind;
                     self.works = Some((item, world.now_ms + self.time_ms(kind) + self.longer_ms()));
                 }
                 None => world.crash(format!("a process was started without {lacks}")),
@@ -370,7 +370,7 @@ impl Running for Cycle {
             && !world.see().borne_by(self.process.place).any(|borne| borne == item)
         {
             self.works = None;
-            let kind = world.items.all()[item].kind;
+            let kind = world.items[item].kind;
             world.crash(format!("a {} was taken from a process", self.kinds[kind]));
         }
         if let Some((item, ready_ms)) = self.works
@@ -387,7 +387,7 @@ impl Running for Cycle {
             {
                 world.crash(format!("a process has no free slot for a {}", self.kinds[kind]));
             }
-            let kind = world.items.all()[item].kind;
+            let kind = world.items[item].kind;
             world.items.remake(item, self.made_of(kind));
         }
         Progress::Going

@@ -101,7 +101,7 @@ impl<'a> World<'a> {
 
     /// An item becomes a part of another one.
     pub fn join(&mut self, item: usize, of: usize) {
-        let carrier = self.items.all()[item].carrier;
+        let carrier = self.items[item].carrier;
         let place = carrier.part().and_then(|part| self.see().place(part, item)).unwrap_or_default();
         self.items.pass(item, Carrier::Part { of }, place);
     }
@@ -166,13 +166,13 @@ impl<'a> See<'a> {
 
     /// Where the underside of an item is that a part of this machine bears.
     pub fn place(&self, part: usize, item: usize) -> Option<Point> {
-        self.part(part)?.place(item, &self.items.all()[item].carrier, self)
+        self.part(part)?.place(item, &self.items[item].carrier, self)
     }
 
     /// Items that a part of this machine bears, in the order in which they came.
     pub fn borne_by(&self, part: usize) -> impl Iterator<Item = usize> + 'a {
         let items = self.items;
-        let of_part = move |item: &usize| items.all()[*item].carrier.part() == Some(part);
+        let of_part = move |item: &usize| items[*item].carrier.part() == Some(part);
         items.borne_by(self.machine).iter().copied().filter(of_part)
     }
 }

@@ -70,7 +70,7 @@ impl Seeing {
         let lane = see.lane(self.zone.lane).and_then(|moving| Some((moving, self.middle(moving)?)));
         lane.into_iter().flat_map(move |(moving, middle)| {
             see.borne_by(self.zone.lane).filter_map(move |number| {
-                let item = &see.items.all()[number];
+                let item = &see.items[number];
                 let along = moving.place_of(number, &item.carrier)?;
                 ((along - middle).abs() <= self.farthest[item.kind]).then_some((number, along))
             })
@@ -81,7 +81,7 @@ impl Seeing {
     fn foremost(&self, see: &See) -> Vec<Option<(usize, f64)>> {
         let mut foremost: Vec<Option<(usize, f64)>> = vec![None; self.farthest.len()];
         for (number, along) in self.seen(see) {
-            let of_kind = &mut foremost[see.items.all()[number].kind];
+            let of_kind = &mut foremost[see.items[number].kind];
             if of_kind.is_none_or(|(_, other)| along < other) {
                 *of_kind = Some((number, along));
             }
@@ -105,7 +105,7 @@ impl Running for Seeing {
         let Some(moving) = see.lane(self.zone.lane) else { return f64::INFINITY };
         let Some(middle) = self.middle(moving) else { return f64::INFINITY };
         let times = see.borne_by(self.zone.lane).flat_map(|number| {
-            let item = &see.items.all()[number];
+            let item = &see.items[number];
             let far = self.farthest[item.kind];
             let motion = moving.motion(number, &item.carrier);
             let comes_to = |place: f64| motion.map(|motion| moving.comes_to(motion, place, now_ms as f64));
@@ -117,7 +117,7 @@ impl Running for Seeing {
     fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
         out.fill(0.0);
         if signal == 0 {
-            self.seen(see).for_each(|(number, _)| out[see.items.all()[number].kind] = 1.0);
+            self.seen(see).for_each(|(number, _)| out[see.items[number].kind] = 1.0);
             return;
         }
         for (kind, foremost) in self.foremost(see).into_iter().enumerate() {

@@ -15,7 +15,7 @@ pub const FORMAT: &str = "autogen trajectories 1";
 /// The segments of some items as one JSON object. All numbers read back to the same bits. `paths` are those
 /// of all items.
 pub fn segments_json(line: &Line, paths: &[Path], items: &[usize]) -> String {
-    let names = item::names(line);
+    let names = item::Names::new(line).all();
     let kinds: Vec<usize> = line.scenario.supply.iter().flat_map(|s| s.items.iter().copied()).collect();
     Json::object(|json| {
         json.put_text("format", FORMAT);

@@ -71,7 +71,7 @@ impl Recorder {
             if let (false, Some(last), Some(conveyed)) = (is_as_before, last.as_ref(), conveyed)
                 && let Some(stood_s) = last.stood_after(&conveyed, passed_s)
             {
-                let carrier = plant.items().all()[item].carrier;
+                let carrier = plant.items()[item].carrier;
                 let begin_ms = now_ms + 1000.0 * (stood_s - passed_s);
                 let path = &mut self.paths[item];
                 path.cut(begin_ms);
@@ -100,7 +100,7 @@ impl Recorder {
         let now_ms = plant.now_ms() as f64;
         let log = plant.items().log();
         let mut passed = Vec::new();
-        for event in &log[self.read..] {
+        for event in log.since(self.read) {
             match *event {
                 Event::Item { item, to, point, .. } => {
                     let path = &mut self.paths[item];
@@ -117,14 +117,14 @@ impl Recorder {
                 Event::Order { .. } => {}
             }
         }
-        self.read = log.len();
+        self.read = log.count();
         passed
     }
 
     /// What an item does from now on, if nothing changes any more.
     fn follow(&mut self, plant: &Plant, item: usize) {
         let now_ms = plant.now_ms() as f64;
-        let carrier = plant.items().all()[item].carrier;
+        let carrier = plant.items()[item].carrier;
         let Some(place) = plant.place(item) else { return };
         let machine = carrier.machine();
         let trajectory = match self.conveyed[item] {

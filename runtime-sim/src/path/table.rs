@@ -14,7 +14,7 @@ pub const HEAD: &str = "item,kind,t,x,y,z,carrier";
 /// there are two rows of the same time. `paths` are those of all items.
 pub fn table_csv(line: &Line, paths: &[Path], items: &[usize], every_ms: u64) -> String {
     let mut text = format!("{HEAD}\n");
-    let names = item::names(line);
+    let names = item::Names::new(line).all();
     let kinds: Vec<usize> = line.scenario.supply.iter().flat_map(|s| s.items.iter().copied()).collect();
     for &item in items {
         let name = &names[item];

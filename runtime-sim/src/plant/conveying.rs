@@ -66,7 +66,7 @@ impl Among<'_> {
     }
 
     fn carrier(&self, item: usize) -> Carrier {
-        self.items.all()[item].carrier
+        self.items[item].carrier
     }
 }
 
@@ -98,7 +98,7 @@ impl Conveying {
         let Carrier::Lane { machine, part, at, across } = *lands else { return None };
         let track = self.tracks.iter().find(|track| (track.machine, track.part) == (machine, part))?;
         let lane = among.lane(track);
-        let kind = |item: usize| among.items.all()[item].kind;
+        let kind = |item: usize| among.items[item].kind;
         let place = at - lane.travel_at(ms);
         let borne = among.items.borne_by(machine).iter().copied();
         let mut others = borne.filter(|other| *other != item);
@@ -218,7 +218,7 @@ impl Conveying {
                 let centre_line = track.centre_line(among, ms);
                 let lane = among.lane_mut(track);
                 let at = centre_line.begin() + lane.travel_at(ms);
-                let half = track.halves[among.items.all()[item].kind];
+                let half = track.halves[among.items[item].kind];
                 let rider = Rider { from: Some(from), ..Rider::new(item, half, at) };
                 among.lane_mut(track).riders.push(rider);
                 let carrier = Carrier::Lane { machine: track.machine, part: track.part, at, across: 0.0 };

@@ -143,7 +143,7 @@ impl Plant {
             return f64::INFINITY;
         }
         let speeds: Vec<f64> = self.machines.iter().map(|machine| machine.speed(now_ms)).collect();
-        let logged = self.items.log().len();
+        let logged = self.items.log().count();
         if self.lying.as_ref().is_some_and(|known| known.logged != logged || known.speeds != speeds) {
             self.lying = None;
         }
@@ -160,7 +160,7 @@ impl Plant {
         if all.is_empty() {
             return f64::INFINITY;
         }
-        let (motion, logged) = (self.machines[machine].trajectory(now_ms), self.items.log().len());
+        let (motion, logged) = (self.machines[machine].trajectory(now_ms), self.items.log().count());
         let has_found = all.iter().any(|looks| looks.has_found);
         if let Some(known) = &self.next_looks[machine]
             && !has_found
@@ -232,20 +232,20 @@ impl Plant {
     fn lying(&self, speeds: &[f64]) -> Lying {
         let (mut at_rest, mut moving) = (Vec::new(), Vec::new());
         for index in self.items.placed() {
-            let carrier = self.items.all()[index].carrier;
+            let carrier = self.items[index].carrier;
             match carrier.machine() {
                 _ if matches!(carrier, Carrier::Grip { .. }) => {}
                 Some(machine) if speeds[machine] > 0.0 => moving.push(index),
                 _ => at_rest.extend(self.grip_point(index)),
             }
         }
-        Lying { speeds: speeds.to_vec(), logged: self.items.log().len(), at_rest, moving }
+        Lying { speeds: speeds.to_vec(), logged: self.items.log().count(), at_rest, moving }
     }
 
     /// What a gripper may find as it lies now.
     fn candidates(&self, Lying { speeds, at_rest, moving, .. }: &Lying) -> Candidates {
         let carried = |item: &usize| {
-            let machine = self.items.all()[*item].carrier.machine()?;
+            let machine = self.items[*item].carrier.machine()?;
             Some(Carried { grip: self.grip_point(*item)?, leap: self.leap(*item), speed: speeds[machine] })
         };
         Candidates { at_rest: at_rest.clone(), moving: moving.iter().filter_map(carried).collect() }
@@ -279,7 +279,7 @@ impl Plant {
 
     /// An item on which another one lies is not lifted alone.
     fn take_from_under(&mut self, machine: usize, item: usize) {
-        let carrier = self.items.all()[item].carrier;
+        let carrier = self.items[item].carrier;
         let working = carrier.machine().and_then(|bearing| self.machines.get(bearing));
         let upper = working.and_then(|working| working.lies_on(item, &carrier, &self.items, &self.desk));
         if upper.is_some() {
@@ -289,7 +289,7 @@ impl Plant {
 
     /// How far over its underside an item is gripped, m.
     pub fn grasp(&self, item: usize) -> f64 {
-        self.grasps[self.items.all()[item].kind]
+        self.grasps[self.items[item].kind]
     }
 
     /// Where an item is gripped: over the middle of its underside.
@@ -305,7 +305,7 @@ impl Plant {
     fn contact(&self, tool: &Pose, near: f64) -> Option<usize> {
         let mut nearest: Option<(f64, usize)> = None;
         for index in self.items.placed() {
-            if matches!(self.items.all()[index].carrier, Carrier::Grip { .. }) {
+            if matches!(self.items[index].carrier, Carrier::Grip { .. }) {
                 continue;
             }
             let Some(grip) = self.grip_point(index) else { continue };

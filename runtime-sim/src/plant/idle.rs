@@ -82,15 +82,15 @@ impl Working {
 impl Plant {
     /// What concerns a machine wakes it: events since the last time. All that is not idle was advanced to this time, ms.
     pub(super) fn wake_concerned(&mut self, now_ms: u64) {
-        for event in self.heard..self.items.log().len() {
-            match self.items.log()[event] {
+        for number in self.heard..self.items.log().count() {
+            match self.items.log().since(number)[0] {
                 Event::Item { from, to, .. } => {
                     for machine in [from, to].into_iter().filter_map(|carrier| carrier.machine()) {
                         self.wake(machine, now_ms);
                     }
                 }
                 Event::Kind { item, .. } => {
-                    if let Some(machine) = self.items.all()[item].carrier.machine() {
+                    if let Some(machine) = self.items[item].carrier.machine() {
                         self.wake(machine, now_ms);
                     }
                 }
@@ -99,7 +99,7 @@ impl Plant {
                 }
             }
         }
-        self.heard = self.items.log().len();
+        self.heard = self.items.log().count();
     }
 
     fn wake(&mut self, machine: usize, now_ms: u64) {

@@ -10,8 +10,8 @@ pub struct Progress {
     made: usize,
     /// Of each sink that has a goal, items of each kind.
     collected: Vec<Vec<u32>>,
-    /// Events that were checked.
-    read: usize,
+    /// What sinks have that none of them should have.
+    surplus: Option<String>,
     /// The last scan in which something happened: an input or a word of the controllers changed, or was about to.
     alive: u64,
     /// The same, but for what is only about to.
@@ -32,7 +32,7 @@ impl Progress {
                 Goal::Collected(sinks) => vec![vec![0; line.kinds.len()]; sinks.len()],
                 Goal::AllOrders | Goal::TimeLimit => Vec::new(),
             },
-            read: 0,
+            surplus: None,
             alive: 0,
             last_event: 0,
             stall: scans(scenario.stall_limit_s),
@@ -66,21 +66,21 @@ impl Progress {
         self.alive.saturating_add(1).saturating_add(self.stall)
     }
 
+    /// Events before this scan that were not counted yet.
+    pub fn count(&mut self, line: &Line, plant: &Plant, scan: u64, events: &[Event]) {
+        let made = |event: &&Event| matches!(event, Event::Order { change: OrderChange::Made, .. });
+        self.made += events.iter().filter(made).count();
+        self.surplus = self.collect(line, plant, events);
+        self.note(scan, !events.is_empty());
+    }
+
     /// Whether the run is over before this scan, and whether it has reached its goal.
     pub fn end(&mut self, line: &Line, plant: &Plant, scan: u64) -> Option<(bool, String)> {
-        let log = plant.items().log();
-        let made = |event: &&Event| matches!(event, Event::Order { change: OrderChange::Made, .. });
-        self.made += log[self.read..].iter().filter(made).count();
-        let surplus = self.collect(line, plant, &log[self.read..]);
-        if self.read < log.len() {
-            self.note(scan, true);
-        }
-        self.read = log.len();
         if let Some((machine, reason)) = plant.items().crashed() {
             let name = &line.machines[machine].name;
             return Some((false, format!("interlock of {name}: {reason}")));
         }
-        if let Some(surplus) = surplus {
+        if let Some(surplus) = self.surplus.take() {
             return Some((false, surplus));
         }
         if let Goal::Collected(sinks) = &line.scenario.goal
@@ -105,9 +105,9 @@ impl Progress {
     }
 
     /// Counts what sinks have collected; what none of them should have.
-    fn collect(&mut self, line: &Line, plant: &Plant, log: &[Event]) -> Option<String> {
+    fn collect(&mut self, line: &Line, plant: &Plant, events: &[Event]) -> Option<String> {
         let Goal::Collected(sinks) = &line.scenario.goal else { return None };
-        for event in log {
+        for event in events {
             let Event::Item { item, to: Carrier::Sink { machine, part }, .. } = *event else { continue };
             let of_goal = sinks.iter().zip(&mut self.collected);
             let Some((sink, items)) =
@@ -115,7 +115,7 @@ impl Progress {
             else {
                 continue;
             };
-            let kind = plant.items().all()[item].kind;
+            let kind = plant.items()[item].kind;
             items[kind] += 1;
             if items[kind] > sink.items[kind] {
                 let [wanted, name] = [sink.items[kind].to_string(), line.kinds[kind].name.clone()];

@@ -5,7 +5,10 @@
 pub mod machines;
 
 use machines::{belt, bin, gantry, machine, rail_arm, station, vehicle};
+use runtime_sim::conservation::Conservation;
 use runtime_sim::device::LAST_COMMAND;
+use runtime_sim::event::Event;
+use runtime_sim::item::Items;
 use runtime_sim::line::{IoDelay, Kind, Line, Order, Scenario, State, Supply};
 use runtime_sim::plant::{self, Plant};
 use runtime_sim::point::{Axis, Point};
@@ -150,14 +153,14 @@ impl Rig {
             self.plant.advance(&self.outputs);
             let other = &mut self.from_event_to_event;
             other.obey(&self.outputs);
-            let (logged, next) = (other.items().log().len(), other.next_change());
+            let (logged, next) = (other.items().log().count(), other.next_change());
             other.proceed_to(self.plant.scan());
             if self.obeyed == self.outputs && next.is_none_or(|next| next > other.scan()) {
-                assert_eq!(other.items().log()[logged..], [], "before scan {next:?}");
+                assert_eq!(other.items().log().since(logged), [], "before scan {next:?}");
             }
             self.obeyed.clone_from(&self.outputs);
             assert_eq!(other.images(), self.plant.images());
-            assert_eq!(other.items().log(), self.plant.items().log());
+            assert_eq!(other.items().log().since(0), self.plant.items().log().since(0));
         }
     }
 
@@ -394,4 +397,11 @@ pub fn whole_order() -> Vec<Step> {
     steps.push(Step::Until(STATION, input::ORDER_OPEN, 0.0));
     steps.push(Step::Write(STATION, output::COMPLETE, 0.0));
     steps
+}
+
+/// What a log proves of the items at its end.
+pub fn conservation(log: &[Event], items: &Items) -> Result<(), String> {
+    let mut conservation = Conservation::new(items);
+    conservation.take(log);
+    conservation.end(items)
 }

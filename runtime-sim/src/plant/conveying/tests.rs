@@ -230,7 +230,7 @@ impl Design {
 }
 
 fn bits(plant: &Plant) -> Vec<u64> {
-    let places = (0..plant.items().all().len()).filter_map(|item| plant.place(item));
+    let places = (0..plant.items().count()).filter_map(|item| plant.place(item));
     let places = places.flat_map(|Point { x, y, z }| [x, y, z]);
     plant.images().iter().flatten().copied().chain(places).map(f64::to_bits).collect()
 }
@@ -449,7 +449,7 @@ fn events_are_those_of_every_scan_and_of_small_steps() {
 
 fn compare(seed: u64, scan: u64, steps: &Steps, plant: &Plant) {
     for (item, at) in steps.items.iter().enumerate() {
-        let carrier = plant.items().all()[item].carrier;
+        let carrier = plant.items()[item].carrier;
         let conveyed = plant.conveyed(item).map(|conveyed| conveyed.centre_line.begin() - conveyed.place);
         let found = carrier.machine().zip(conveyed);
         let is_same = match (*at, found) {

@@ -234,7 +234,7 @@ impl Track {
             let new = borne.iter().filter(|item| known.iter().all(|rider| rider.item != **item));
             new.filter_map(|item| {
                 let Carrier::Lane { at, .. } = among.carrier(*item) else { return None };
-                let half = self.halves[among.items.all()[*item].kind];
+                let half = self.halves[among.items[*item].kind];
                 Some(Rider::new(*item, half, at))
             })
             .collect()
@@ -318,7 +318,7 @@ pub fn feed_ms(tracks: &[Track], index: usize, among: &Among, ms: f64) -> f64 {
     if due_ms > ms + AT_ONCE {
         return due_ms;
     }
-    let half = track.halves[among.items.all()[*next].kind];
+    let half = track.halves[among.items[*next].kind];
     let spot = Spot { track: index, place: feed.place, item: *next, half };
     spot.free_ms(tracks, among, ms).max(due_ms)
 }
