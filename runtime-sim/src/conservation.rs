@@ -17,8 +17,8 @@ pub struct Conservation {
     carriers: BTreeMap<usize, Carrier>,
     /// Of those that are gone, the sum of their [`gone`].
     gone: u64,
-    /// The item that the gripper of each machine holds.
-    held: Vec<Option<usize>>,
+    /// The items that grippers hold, by machine and part.
+    held: BTreeMap<(usize, usize), usize>,
     last_scan: u64,
     /// The first one.
     violation: Option<String>,
@@ -31,7 +31,7 @@ impl Conservation {
             left: vec![false; items.count()],
             carriers: BTreeMap::new(),
             gone: 0,
-            held: vec![None; items.machines()],
+            held: BTreeMap::new(),
             last_scan: 0,
             violation: None,
         }
@@ -73,13 +73,13 @@ impl Conservation {
         if !(point.x.is_finite() && point.y.is_finite() && point.z.is_finite()) {
             return Err(format!("scan {scan}: item {item} is nowhere"));
         }
-        if let Carrier::Grip { machine, .. } = to
-            && let Some(other) = self.held[machine].replace(item)
+        if let Carrier::Grip { machine, part, .. } = to
+            && let Some(other) = self.held.insert((machine, part), item)
         {
             return Err(format!("scan {scan}: gripper {machine} holds item {other} and takes item {item}"));
         }
-        if let Carrier::Grip { machine, .. } = from {
-            self.held[machine] = None;
+        if let Carrier::Grip { machine, part, .. } = from {
+            self.held.remove(&(machine, part));
         }
         self.left[item] = true;
         if to.is_gone() {
@@ -219,6 +219,15 @@ mod tests {
         assert_eq!(verdict(&items), Ok(()));
         items.pass(0, gripper, Point::default());
         assert_eq!(verdict(&items).unwrap_err(), "scan 0: gripper 1 holds item 1 and takes item 0");
+    }
+
+    #[test]
+    fn each_gripper_of_a_machine_holds_an_item() {
+        let mut items = items();
+        for part in [0, 1] {
+            items.pass(part, Carrier::Grip { machine: 1, part, hang: Point::default() }, Point::default());
+        }
+        assert_eq!(verdict(&items), Ok(()));
     }
 
     #[test]

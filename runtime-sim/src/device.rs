@@ -73,4 +73,6 @@ pub mod error {
     pub const NO_PART: i32 = 2;
     /// The device refused the command.
     pub const REFUSED: i32 = 3;
+    /// The number of the command became 0, after a loss of power.
+    pub const WITHDRAWN: i32 = 6;
 }

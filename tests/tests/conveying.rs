@@ -519,3 +519,94 @@ fn what_has_its_front_before_a_pusher_stays_when_its_middle_is_there() {
         assert!(far < 0.95 + 1e-6, "pushed at {push} ms, every {every} s: {far}");
     }
 }
+
+/// A conveyor with a pusher and a diverter onto two others; the first ends at the second one's beginning. Items are 0.26 m
+/// long.
+fn with_branches(parts: &str, operator: &str, supply: &str) -> Texts {
+    let device = format!(
+        "device cell {{
+            part go_on = button {{}}; part turn = button {{}}; part push = button {{}};
+            part main = lane {{ from: origin * frame(0, 0, 0.8, 0); length: 1.5; width: 0.4; speed: 0.5; }};
+            part feed = source {{ on: main; inset: 0.2; }};
+            part arm = cylinder {{ extend: 100 ms; retract: 100 ms; }};
+            part rod = cylinder {{ extend: 100 ms; retract: 100 ms; }};
+            part outfeed = lane {{ from: origin * frame(1.5, 0, 0.8, 0); length: 1.0; width: 0.4; speed: 0.1; }};
+            part end = sink {{ of: outfeed; inset: 0; }};
+            part side = lane {{ from: origin * frame(0.5, -3, 0.8, -90); length: 0.8; width: 0.4; speed: 0.3; }};
+            part side_end = sink {{ of: side; inset: 0; }};
+            {parts}
+            in goes: bool = go_on.on; in turns: bool = turn.on; in pushes: bool = push.on;
+            out run: bool = main.run; out run_after: bool = outfeed.run; out run_side: bool = side.run;
+            out extend: bool = arm.extend; out extend_rod: bool = rod.extend;
+        }}
+        automaton Cell on cell {{
+            initial -> Runs {{ run := true; run_side := true; }}
+            state Runs {{
+                when goes <> run_after or turns <> extend or pushes <> extend_rod
+                -> Runs {{ run_after := goes; extend := turns; extend_rod := pushes; }}
+            }}
+        }}"
+    );
+    let scenario = format!(
+        r#"{{"kinds": [{{"name": "box", "height": 0.2, "size": [0.26, 0.05]}}],
+            "supply": {{"items": ["box", "box"], {supply}}}, "time_limit_s": 12, "operator": [{operator}]}}"#
+    );
+    line(&device, r#"{"name": "cell", "type": "cell", "pose": [0, 0, 0]}"#, &scenario)
+}
+
+/// Two boxes 0.5 m apart. The second one is turned onto the conveyor that follows while the first one comes to the joint:
+/// this waits there until the other one has left.
+#[test]
+fn what_comes_over_a_joint_waits_for_what_a_diverter_has_put_there() {
+    let diverter = "part gate = diverter { of: main; at: 0.9; by: arm; onto: outfeed; };";
+    let operator = r#"{"robot": "cell", "part": "turn", "at_s": 2.2, "for_s": 3},
+        {"robot": "cell", "part": "go_on", "at_s": 6}"#;
+    let texts = with_branches(diverter, operator, r#""first_s": 1, "every_s": 1.1"#);
+    let (_, places) = places(&texts);
+    let along = |scan: &Vec<Option<Point>>| [0, 1].map(|item: usize| scan[item].map_or(f64::NAN, |p| p.x));
+    let waits = along(&places[550]);
+    assert!((waits[1] - 1.5).abs() < 1e-9 && (waits[0] - 1.37).abs() < 1e-9, "{waits:?}");
+    let follows = along(&places[1150]);
+    assert!(follows[1] > 1.9 && (follows[1] - follows[0] - 0.26).abs() < 1e-6, "{follows:?}");
+}
+
+/// The conveyor of the diverter is full; the pusher before it has room.
+#[test]
+fn a_diverter_without_room_does_not_stop_a_pusher() {
+    let branches = "part gate = diverter { of: main; at: 0.93; by: arm; onto: outfeed; };
+        part out = pusher { of: main; at: 0.8; width: 0.3; by: rod; onto: side; };";
+    let operator = r#"{"robot": "cell", "part": "turn", "at_s": 0.6},
+        {"robot": "cell", "part": "push", "at_s": 8}"#;
+    let texts = with_branches(branches, operator, r#""first_s": 1, "every_s": 3"#);
+    let (_, places) = places(&texts);
+    let across = |scan: usize| [0, 1].map(|item: usize| places[scan][item].map_or(f64::NAN, |p| p.y));
+    assert_eq!(across(800), [0.0, 0.0]);
+    assert!(across(850)[1] < -2.9, "{:?}", across(850));
+}
+
+/// A box 0.05 m long and 0.3 m wide is wholly in a field of 0.4 m for 0.35 m, at 0.1 m/s.
+#[test]
+fn a_zone_sees_items_by_their_lengths_along_the_conveyor() {
+    let device = "device eye {
+            part bed = lane { from: origin * frame(0, 0, 0.8, 0); length: 2.0; width: 0.4; speed: 0.1; };
+            part feed = source { on: bed; inset: 0; };
+            part end = sink { of: bed; inset: 0; };
+            part field = zone { over: bed; middle: origin * point(1, 0, 0.8); half: 0.2; part_half: 0.01; };
+            in sees: bool[Kind] = field.sees;
+            out run: bool = bed.run;
+        }
+        automaton Eye on eye {
+            local seen: int 0..10 := 0;
+            initial -> Runs { run := true; }
+            state Runs { when sees[box] -> Sees {} }
+            state Sees { when not sees[box] -> Stopped { run := false; } }
+            final state Stopped;
+        }";
+    let scenario = r#"{"kinds": [{"name": "box", "height": 0.05, "size": [0.05, 0.3]}],
+        "supply": {"items": ["box"], "first_s": 0}, "time_limit_s": 30}"#;
+    let texts = line(device, r#"{"name": "eye", "type": "eye", "pose": [0, 0, 0]}"#, scenario);
+    let (_, places) = places(&texts);
+    let stops = places.last().and_then(|scan| scan[0]).expect("the box");
+    // Seen to have left a scan late, stopped in the next one.
+    assert!((1.175..1.178).contains(&stops.x), "{stops:?}");
+}

@@ -473,3 +473,94 @@ fn a_run_waits_for_timers() {
     assert!(reason.starts_with("fault"), "{reason}");
     assert!((200.0..200.1).contains(&s), "{s}");
 }
+
+/// Power is lost at 3 s for 2 s; then the machine begins anew, with `cmd` 0, and nobody gives a command.
+fn loses_power(device: &str, command: &str) -> Texts {
+    let automaton = format!(
+        "local given: bool := false;
+        initial -> Waits {{}}
+        state Waits {{ when go and not given -> Moves {{ {command} given := true; }} }}
+        state Moves {{ when changes -> Changed {{}} }}
+        final state Changed;"
+    );
+    let device = format!("part start = button {{}}; in go: bool = start.on; {device}");
+    let scenario = r#""operator": [{"robot": "it", "part": "start", "at_s": 1, "for_s": 1}],
+        "faults": {"power_offs": [{"at_s": 3, "for_s": 2}]}"#;
+    line(&device, &automaton, scenario)
+}
+
+#[test]
+fn a_command_from_before_a_loss_of_power_is_not_finished() {
+    let lift = "part hoist = positioner { slides: point(1, 0, 0); positions: [0, 1]; speed: 0.1; };
+        part bed = lane { on: hoist; from: origin * frame(0, 0, 0.8, 0); length: 1.0; width: 0.4; speed: 0.3; };
+        in changes: bool = hoist.stands; in place: int -1..31 = hoist.place; out goal: int 0..31;
+        command 1 to(goal) = hoist.to(goal);";
+    let run_of = |device: &str, command: &str| run(&loses_power(device, command), |_| {});
+    let lifted = run_of(lift, "to(1);");
+    let strokes = &lifted.history.machines[0].strokes[0].changes;
+    let ends = strokes.last().map(|(ms, stroke)| (*ms, stroke.out, stroke.rate));
+    assert_eq!(ends, Some((3000, 0.2, 0.0)), "{strokes:?}");
+
+    let belt = "part bed = lane { from: origin * frame(0, 0, 0.8, 0); length: 1.0; width: 0.4; speed: 0.3; };
+        in changes: bool = bed.moves; command 1 run() = bed.run();";
+    let carried = run_of(belt, "run();");
+    let surfaces = &carried.history.machines[0].surfaces[0].changes;
+    assert_eq!(surfaces.last().map(|(_, speed)| *speed), Some(0.0), "{surfaces:?}");
+}
+
+/// An item on a conveyor below the tool, which two grippers pick one after the other.
+#[test]
+fn slips_count_the_picks_of_all_grippers_of_an_arm() {
+    let device = "part bed = lane { from: origin * frame(0, 0, 0.5, 0); length: 1.0; width: 0.4; speed: 0.1; };
+        part feed = source { on: bed; inset: 0.5; };
+        part across = axis { from: origin * frame(0, 0, 1.2, 0); along: x; range: [0, 1]; speed: 0.5; acceleration: 1.0; };
+        part up = axis { on: across; along: z; range: [-0.9, 0.1]; speed: 0.5; acceleration: 1.0; };
+        part arm = chain { on: up; tool_length: 0.1; rest: origin * point(0.5, 0, 0.56); };
+        part first_cup = grip { on: arm; period: 20 ms; looks: 2; near: 0.08; };
+        part other_cup = grip { on: arm; period: 20 ms; looks: 2; near: 0.08; };
+        in holds: bool = first_cup.holds; in other_holds: bool = other_cup.holds;
+        out run: bool = bed.run; out close: bool = first_cup.close; out close_other: bool = other_cup.close;";
+    let automaton = "initial -> Starts { run := true; }
+        state Starts { when after 100 ms -> First { run := false; close := true; } }
+        state First { when holds and after 1 s -> Between { close := false; } }
+        state Between { when not holds -> Other { close_other := true; } }
+        state Other { when other_holds -> Holds {} }
+        state Holds { when not other_holds -> Lost {} }
+        final state Lost;";
+    let scenario = r#""kinds": [{"name": "box", "height": 0.05, "size": [0.06, 0.06]}],
+        "supply": {"items": ["box"], "first_s": 0},
+        "faults": {"slips": [{"robot": "it", "pick": 2, "after_s": 1}]}"#;
+    let entered = entries(&line(device, automaton, scenario));
+    let at = |state: usize| entered.iter().find(|(_, entered)| *entered == state).map(|(ms, _)| *ms);
+    assert_eq!(at(6).zip(at(5)).map(|(lost, held)| lost - held), Some(1000), "{entered:?}");
+}
+
+/// A clamp and a press are started in the same scan; the clamp takes 50 ms, which a scan of 100 ms hides.
+#[test]
+fn what_a_process_needs_is_there_when_it_starts() {
+    let device =
+        "part bed = lane { from: origin * frame(0, 0, 1.0, 0); length: 1.0; width: 0.4; speed: 0.5; };
+        part feed = source { on: bed; inset: 0.5; };
+        part clamp = cylinder { extend: 50 ms; retract: 50 ms; };
+        part plate = place { at: origin.position; slots: [point(1.05, 0, 0.6)]; by_kind: false;
+            floor: point(1.2, 0, 0.6); floor_x: [-0.4, 0.4]; floor_y: [-0.2, 0.2]; };
+        part press = process { on: plate; time: 2 s; needs_out: clamp; };
+        in ended: bool = press.ended;
+        out run: bool = bed.run; out hold_down: bool = clamp.extend; out start: bool = press.start;";
+    let reason = |transitions: &str| {
+        let automaton = format!("initial -> Runs {{ run := true; }} {transitions} final state Done;");
+        let scenario = r#""kinds": [{"name": "box", "height": 0.05, "size": [0.1, 0.05]}],
+            "supply": {"items": ["box"], "first_s": 0}"#;
+        let mut texts = line(device, &automaton, scenario);
+        texts.layout = texts.layout.replacen('{', r#"{"scan_ms": 100, "#, 1);
+        run(&texts, |_| {}).report.reason
+    };
+    let lacks = "interlock of it: a process was started without its clamp out";
+    let together = "state Runs { when after 5 s -> Works { hold_down := true; start := true; } }
+        state Works { when ended -> Done {} }";
+    assert_eq!(reason(together), lacks);
+    let let_go = "state Runs { when after 5 s -> Holds { hold_down := true; } }
+        state Holds { when after 1 s -> Works { hold_down := false; start := true; } }
+        state Works { when ended -> Done {} }";
+    assert_ne!(reason(let_go), lacks);
+}

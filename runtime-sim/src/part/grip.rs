@@ -101,13 +101,11 @@ pub struct Gripping {
     looks: u32,
     held: Option<usize>,
     let_go: Option<usize>,
-    /// Items attached so far.
-    picks: u32,
     slips: Vec<Slip>,
     loses_at_ms: Option<u64>,
 }
 
-/// The item number `pick`, from 1, falls so long after it was attached, or with fingers, after that was reported.
+/// The item that the arm picks as number `pick`, from 1, falls so long after it was attached, or with fingers, after that was reported.
 #[derive(Clone, Copy, Debug)]
 pub struct Slip {
     pub pick: u32,
@@ -130,7 +128,6 @@ impl Gripping {
             looks: 0,
             held: None,
             let_go: None,
-            picks: 0,
             slips,
             loses_at_ms: None,
         }
@@ -213,7 +210,7 @@ impl Running for Gripping {
         looks.then(|| Some((see.tool(self.grip.chain)?, self.grip.near))).flatten()
     }
 
-    fn meets(&mut self, item: Option<usize>, now_ms: u64, next_ms: u64) -> Option<usize> {
+    fn meets(&mut self, item: Option<usize>, pick: u32, now_ms: u64, next_ms: u64) -> Option<usize> {
         let Some(item) = item else {
             self.looks = 0;
             return None;
@@ -227,8 +224,7 @@ impl Running for Gripping {
         }
         self.looks = 0;
         self.held = Some(item);
-        self.picks = self.picks.saturating_add(1);
-        let slip = self.slips.iter().find(|slip| slip.pick == self.picks);
+        let slip = self.slips.iter().find(|slip| slip.pick == pick);
         self.loses_at_ms = slip.map(|slip| next_ms + self.sure_ms() + slip.after_ms);
         self.held
     }

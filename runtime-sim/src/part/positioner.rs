@@ -4,6 +4,7 @@ use super::settings::{Form, Setting, Settings};
 use super::stroke::{Carriage, Stroke, Strokes};
 use super::{Action, Begun, Described, Progress, Running, Schema, See, Signal, Start, World};
 use crate::device::{Extent, PortType, error};
+use crate::plant::EARLY_MS;
 
 pub const SCHEMA: Schema = Schema {
     can_jam: true,
@@ -123,13 +124,17 @@ impl Positioning {
         }
     }
 
+    fn has_arrived(&self, now_ms: u64) -> bool {
+        now_ms as f64 + EARLY_MS >= self.arrives_ms()
+    }
+
     /// Part of the stroke.
     fn out(&self, now_ms: u64) -> f64 {
         match self.drive {
             Drive::Rests | Drive::Held(_) => self.from,
             Drive::Moves(goal) => {
                 let goal = self.positioner.positions[goal];
-                if now_ms as f64 >= self.arrives_ms() {
+                if self.has_arrived(now_ms) {
                     return goal;
                 }
                 let gone = self.positioner.rate * (now_ms - self.since_ms) as f64 / 1000.0;
@@ -146,7 +151,10 @@ impl Positioning {
     /// At which it is at rest.
     fn place(&self) -> Option<usize> {
         let is_here = |position: &f64| *position == self.from;
-        if self.drive == Drive::Rests { self.positioner.positions.iter().position(is_here) } else { None }
+        match self.drive {
+            Drive::Rests | Drive::Held(_) => self.positioner.positions.iter().position(is_here),
+            Drive::Moves(_) => None,
+        }
     }
 }
 
@@ -188,7 +196,7 @@ impl Running for Positioning {
         self.now_ms = world.next_ms();
         match self.drive {
             Drive::Rests => Progress::Reached,
-            Drive::Moves(goal) if self.now_ms as f64 >= self.arrives_ms() => {
+            Drive::Moves(goal) if self.has_arrived(self.now_ms) => {
                 self.from = self.positioner.positions[goal];
                 (self.drive, self.since_ms) = (Drive::Rests, self.now_ms);
                 Progress::Reached
@@ -225,7 +233,7 @@ impl Carriage for Positioning {
     fn going(&self, now_ms: u64) -> [f64; 3] {
         let out = self.out(now_ms);
         match self.drive {
-            Drive::Moves(goal) if (now_ms as f64) < self.arrives_ms() => {
+            Drive::Moves(goal) if !self.has_arrived(now_ms) => {
                 let until = self.positioner.positions[goal];
                 [out, self.positioner.rate.copysign(until - out), until]
             }
@@ -244,5 +252,29 @@ impl Carriage for Positioning {
 
     fn now_ms(&self) -> u64 {
         self.now_ms
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn on_its_way(drive: Drive) -> Positioning {
+        let stroke = Stroke::Slides(crate::point::Point::new(1.5, 0.0, 0.0));
+        let positions = vec![0.0, 1.05 / 1.5, 1.0];
+        let positioner = Positioner { stroke, positions, rate: 0.35 / 1.5, begins: 0 };
+        Positioning { drive, ..Positioning::new(&positioner) }
+    }
+
+    #[test]
+    fn three_seconds_are_not_longer_by_rounding() {
+        assert!(!on_its_way(Drive::Moves(1)).has_arrived(2999));
+        assert!(on_its_way(Drive::Moves(1)).has_arrived(3000));
+    }
+
+    #[test]
+    fn one_that_jams_before_it_moves_is_where_it_is() {
+        assert_eq!(on_its_way(Drive::Held(2)).place(), Some(0));
+        assert_eq!(Positioning { from: 0.1, ..on_its_way(Drive::Held(2)) }.place(), None);
     }
 }

@@ -3,6 +3,7 @@
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Action, Begun, Progress, Running, Schema, See, Signal, World, Start};
 use crate::device::{Extent, PortType, error};
+use crate::plant::EARLY_MS;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
@@ -122,7 +123,7 @@ impl Running for Driving {
         let Route { speed, latency_ms, .. } = self.route;
         trip.elapsed_ms += world.dt_ms;
         let travelled = speed * trip.elapsed_ms.saturating_sub(latency_ms) as f64 / 1000.0;
-        if trip.elapsed_ms >= latency_ms && travelled >= trip.length {
+        if trip.elapsed_ms >= latency_ms && travelled + speed * EARLY_MS / 1000.0 >= trip.length {
             self.position = trip.to;
             self.trip = None;
             return Progress::Reached;

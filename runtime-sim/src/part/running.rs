@@ -191,6 +191,11 @@ pub trait Running: std::fmt::Debug + Send + Sync {
     /// The command is void, or has ended in error.
     fn abandon(&mut self, _now_ms: u64) {}
 
+    /// The last command was withdrawn: what it has set going stops, even if it has ended.
+    fn lose_command(&mut self, now_ms: u64) {
+        self.abandon(now_ms);
+    }
+
     /// Halts on its path, or continues: a command holds it, or it jams.
     fn hold(&mut self, _held: bool, _now_ms: u64) {}
 
@@ -231,8 +236,9 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// Whether it takes the item that it found, or none, where it looked.
-    fn meets(&mut self, _item: Option<usize>, _now_ms: u64, _next_ms: u64) -> Option<usize> {
+    /// Whether it takes the item that it found, or none, where it looked. It would be the pick of this number, from 1, of
+    /// the machine.
+    fn meets(&mut self, _item: Option<usize>, _pick: u32, _now_ms: u64, _next_ms: u64) -> Option<usize> {
         None
     }
 

@@ -12,6 +12,7 @@ use super::settings::{Form, Setting, Settings};
 use super::{Action, Begun, Described, Progress, Running, Schema, See, Signal, Start, World};
 use crate::device::{Extent, PortType, error};
 use crate::frame::Frame;
+use crate::plant::EARLY_MS;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use std::sync::Arc;
@@ -447,11 +448,11 @@ impl Running for Driving {
     fn advance(&mut self, world: &mut World) -> Progress {
         self.now_ms = world.next_ms();
         let now_ms = self.now_ms as f64;
-        let gone = self.ahead.partition_point(|(ms, _)| *ms <= now_ms);
+        let gone = self.ahead.partition_point(|(ms, _)| *ms <= now_ms + EARLY_MS);
         if let Some((_, number)) = self.ahead.drain(..gone).next_back() {
             self.passed = Some(number);
         }
-        if let Some(ride) = self.ride.as_ref().filter(|ride| ride.end_ms() <= now_ms) {
+        if let Some(ride) = self.ride.as_ref().filter(|ride| ride.end_ms() <= now_ms + EARLY_MS) {
             self.place = self.polyline().on_track(ride.to());
             self.ride = None;
         }

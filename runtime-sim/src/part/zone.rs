@@ -1,7 +1,8 @@
 //! A field over a lane in which items are seen, with their kinds and places.
 
 use super::settings::{Form, Setting, Settings};
-use super::{Described, Running, Schema, See, Signal, Start, lane};
+use super::lane::{self, Lane};
+use super::{Described, Primitive, Running, Schema, See, Signal, Start};
 use crate::device::{Extent, PortType};
 use crate::line::Kind;
 use crate::point::Point;
@@ -47,7 +48,11 @@ impl Described for Zone {
     }
 
     fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
-        Ok(Some(Box::new(Seeing::new(self, &start.line.kinds))))
+        let parts = &start.line.machines[start.machine].parts;
+        let Some(Primitive::Lane(lane)) = parts.get(self.lane).map(|part| &part.primitive) else {
+            return Err("a zone is over a lane".into());
+        };
+        Ok(Some(Box::new(Seeing::new(self, lane, &start.line.kinds))))
     }
 }
 
@@ -60,8 +65,8 @@ pub struct Seeing {
 }
 
 impl Seeing {
-    pub fn new(zone: &Zone, kinds: &[Kind]) -> Self {
-        let half = |kind: &Kind| (kind.size[0].max(kind.size[1]) / 2.0).max(zone.part_half);
+    pub fn new(zone: &Zone, lane: &Lane, kinds: &[Kind]) -> Self {
+        let half = |kind: &Kind| (lane.lengths_of(kind.size)[0] / 2.0).max(zone.part_half);
         Self { zone: zone.clone(), farthest: kinds.iter().map(|kind| zone.half - half(kind)).collect() }
     }
 

@@ -13,6 +13,8 @@ pub struct Head {
     verb: usize,
     hold: usize,
     got: i32,
+    /// The number of the last command is still there.
+    is_given: bool,
     ack: i32,
     error: i32,
     accepted: u32,
@@ -46,6 +48,8 @@ pub enum Asked {
     Start(usize),
     /// A command came and was refused; the one before it is void.
     Refused,
+    /// The last command is void: its number is there no longer.
+    Withdrawn,
 }
 
 /// How the command of a number, from 1, is answered.
@@ -67,6 +71,7 @@ impl Head {
             hold: at(Drives::Hold)?,
             wiring: wiring.clone(),
             got: 0,
+            is_given: false,
             ack: 0,
             error: error::NONE,
             accepted: 0,
@@ -79,14 +84,18 @@ impl Head {
         })
     }
 
-    /// Takes a command if the number is new. Number 0 is no command.
+    /// Takes a command if the number is new. Number 0 is no command, and withdraws the last one.
     /// `ends_ms` is when a refusal is answered, ms from the start of the run.
     pub fn accept(&mut self, outputs: &[f64], ends_ms: u64) -> Asked {
         let number = outputs[self.cmd] as i32;
-        if number == self.got || number == 0 {
+        if number == 0 {
+            return self.withdraw();
+        }
+        if number == self.got {
             return Asked::Nothing;
         }
         self.got = number;
+        self.is_given = true;
         self.accepted = self.accepted.saturating_add(1);
         let verb = outputs[self.verb] as i32;
         let known = self.wiring.commands.iter().position(|command| command.number == verb);
@@ -106,6 +115,18 @@ impl Head {
                 Asked::Refused
             }
         }
+    }
+
+    /// Answered at once, in [`error::WITHDRAWN`] if it had not ended.
+    fn withdraw(&mut self) -> Asked {
+        if !std::mem::take(&mut self.is_given) {
+            return Asked::Nothing;
+        }
+        if self.is_under_way() {
+            (self.ack, self.error) = (self.got, error::WITHDRAWN);
+        }
+        (self.task, self.late, self.in_vain) = (None, None, false);
+        Asked::Withdrawn
     }
 
     /// What the scenario says of the last command.

@@ -183,9 +183,9 @@ impl Conveying {
             for rider in &lane.riders {
                 let place = lane.place_at(rider.motion, ms);
                 let goes = track.leaves(among, rider, place, ms).or_else(|| {
-                    let mut branches = track.branches.iter();
-                    let onto = branches.find_map(|branch| branch.takes(rider, place, ms))?;
-                    self.has_room(among, onto, rider, ms).then_some(Goes::Onto(onto))
+                    let taken = track.branches.iter().filter_map(|branch| branch.takes(rider, place, ms));
+                    let mut free = taken.filter(|onto| self.has_room(among, *onto, rider, ms));
+                    free.next().map(Goes::Aside)
                 });
                 if let Some(goes) = goes {
                     return Some((index, rider.item, goes));
@@ -213,13 +213,14 @@ impl Conveying {
                 let carrier = Carrier::Sink { machine, part: sink };
                 among.items.pass(item, carrier, centre_line.point(place, across));
             }
-            Goes::Onto(onto) => {
+            Goes::Onto(onto) | Goes::Aside(onto) => {
                 let track = &self.tracks[onto];
                 let centre_line = track.centre_line(among, ms);
                 let lane = among.lane_mut(track);
                 let at = centre_line.begin() + lane.travel_at(ms);
                 let half = track.halves[among.items[item].kind];
-                let rider = Rider { from: Some(from), ..Rider::new(item, half, at) };
+                let from = matches!(goes, Goes::Onto(_)).then_some(from);
+                let rider = Rider { from, ..Rider::new(item, half, at) };
                 among.lane_mut(track).riders.push(rider);
                 let carrier = Carrier::Lane { machine: track.machine, part: track.part, at, across: 0.0 };
                 among.items.pass(item, carrier, centre_line.point(centre_line.begin(), 0.0));
@@ -236,7 +237,9 @@ enum Goes {
     Collected {
         sink: usize,
     },
-    /// The number of a lane, at its beginning.
+    /// Over a joint; the number of a lane, at its beginning.
     Onto(usize),
+    /// By a diverter or a pusher, to there.
+    Aside(usize),
     Falls(Point),
 }

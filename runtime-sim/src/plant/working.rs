@@ -17,7 +17,7 @@ use crate::memory::Memory;
 use crate::part::lane::Moving;
 use crate::part::orders::Desk;
 use crate::part::stroke::Carriage;
-use crate::part::{Begun, Looks, Part, Progress, Running, See, Start, World, milliseconds};
+use crate::part::{Begun, Looks, Part, Primitive, Progress, Running, See, Start, World, milliseconds};
 use crate::plant::conveyed::Conveyed;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
@@ -42,6 +42,10 @@ pub struct Working {
     halting: Vec<usize>,
     /// The parts that serve.
     serving: Vec<usize>,
+    /// In which the parts move on: processes first, as what they need has to be there when they start.
+    order: Vec<usize>,
+    /// Items that its grippers have taken.
+    picks: u32,
     faults: Faults,
     pub(super) idle: Idle,
     pub(super) phase: Phase,
@@ -96,6 +100,8 @@ impl Working {
         };
         let parts: Vec<Option<Box<dyn Running>>> =
             machine.parts.iter().enumerate().map(start).collect::<Result<_, _>>()?;
+        let mut order: Vec<usize> = (0..parts.len()).collect();
+        order.sort_by_key(|part| !matches!(machine.parts[*part].primitive, Primitive::Process(_)));
         let serves = |part: &usize| parts[*part].as_ref().is_some_and(|part| part.serves());
         Ok(Self {
             index,
@@ -103,6 +109,8 @@ impl Working {
             phase: Phase::default(),
             pose: machine.pose,
             serving: (0..parts.len()).filter(serves).collect(),
+            order,
+            picks: 0,
             parts,
             head: Head::new(&machine.wiring, kinds, refusals, answers.collect()),
             inputs: ranges(machine.wiring.inputs.iter().map(|input| input.size.words(kinds))),
@@ -156,6 +164,15 @@ impl Working {
         }
     }
 
+    fn lose_command(&mut self, now_ms: u64) {
+        self.begin_phase();
+        for part in &self.commanded {
+            if let Some(part) = &mut self.parts[*part] {
+                part.lose_command(now_ms);
+            }
+        }
+    }
+
     fn end(&mut self, error: i32, ends_ms: u64) {
         self.begin_phase();
         if let Some(head) = &mut self.head {
@@ -182,6 +199,7 @@ impl Working {
         match head.accept(outputs, shared.next_ms()) {
             Asked::Nothing => {}
             Asked::Refused => self.abandon(shared.now_ms),
+            Asked::Withdrawn => self.lose_command(shared.now_ms),
             Asked::Start(command) => self.begin(command, before, outputs, shared),
         }
         if let Some(head) = &mut self.head {
@@ -242,7 +260,8 @@ impl Working {
         if let Some(head) = self.head.as_mut().filter(|head| !head.held) {
             head.wait(shared.dt_ms);
         }
-        for part in 0..self.parts.len() {
+        for number in 0..self.parts.len() {
+            let part = self.order[number];
             let Some(progress) = self.with(part, shared, |part, world| part.advance(world)) else { continue };
             let Some(head) = self.head.as_mut().filter(|head| !head.held) else { continue };
             if head.acting().is_none_or(|command| command.part != part) {
@@ -321,7 +340,10 @@ impl Working {
     }
 
     pub fn meets(&mut self, part: usize, item: Option<usize>, now_ms: u64, next_ms: u64) -> Option<usize> {
-        self.parts.get_mut(part)?.as_mut()?.meets(item, now_ms, next_ms)
+        let pick = self.picks.saturating_add(1);
+        let taken = self.parts.get_mut(part)?.as_mut()?.meets(item, pick, now_ms, next_ms)?;
+        self.picks = pick;
+        Some(taken)
     }
 
     /// Ends a command that has waited for a signal, once it is known; then answers that were late are given.

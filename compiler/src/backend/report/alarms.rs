@@ -74,6 +74,7 @@ fn answer_text(code: i64) -> String {
         Ok(error::UNREACHABLE) => "the goal is out of reach",
         Ok(error::NO_PART) => "nothing was gripped",
         Ok(error::REFUSED) => "the device refused it",
+        Ok(error::WITHDRAWN) => "it was withdrawn",
         _ => "see the type of the device",
     };
     format!("a command ended in error {code}: {meaning}")

@@ -6,8 +6,12 @@ use crate::kinematics::facing::Facing;
 use crate::kinematics::pose::Pose;
 use crate::motion::{Motion, Path, Travel};
 use crate::planner::{Load, Transfer};
+use crate::plant::EARLY_MS;
 use crate::point::Point;
 use std::sync::Arc;
+
+/// A time is not distinguished from one that is so much later, s.
+const EARLY: f64 = EARLY_MS / 1000.0;
 
 #[derive(Clone, Debug)]
 pub struct Drive {
@@ -193,8 +197,9 @@ impl Drive {
         match std::mem::replace(&mut self.phase, Phase::Rest) {
             Phase::Rest => Moved::Arrived,
             Phase::Going(motion) => {
-                self.place(motion.at(t));
-                if motion.has_ended(t) {
+                let has_ended = motion.has_ended(t + EARLY);
+                self.place(motion.at(if has_ended { t + EARLY } else { t }));
+                if has_ended {
                     self.direction = self.motions.arm().direction(&self.joints);
                     Moved::Arrived
                 } else {
@@ -204,7 +209,7 @@ impl Drive {
             }
             Phase::Braking(motion, next) => {
                 self.place(motion.at(t));
-                if t < motion.rests_at() {
+                if t + EARLY < motion.rests_at() {
                     self.phase = Phase::Braking(motion, next);
                     return Moved::Moving;
                 }

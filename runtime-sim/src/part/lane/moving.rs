@@ -31,7 +31,7 @@ pub struct Rider {
     /// Half of its length along the conveyor, m.
     pub half: f64,
     pub motion: Motion,
-    /// The lane from which it has come here, by its number among those of the line.
+    /// The lane from which it has come over a joint, by its number among those of the line.
     pub from: Option<usize>,
     /// Place of something that stands in its way; negative infinity: nothing does.
     pub stops_at: f64,
@@ -170,6 +170,10 @@ impl Running for Moving {
             _ => return Err(error::REFUSED),
         };
         Ok(Begun::UnderWay)
+    }
+
+    fn lose_command(&mut self, _now_ms: u64) {
+        self.drive = Drive::Rest;
     }
 
     fn hold(&mut self, held: bool, _now_ms: u64) {

@@ -10,6 +10,8 @@ pub const MOST_NODES: usize = 256;
 pub const MOST_EDGES: usize = 1024;
 /// Nodes nearer to one another have no edge, m.
 const SHORTEST: f64 = 1e-3;
+/// What is rounded differs by no more than such a part.
+const SAME: f64 = 1e-9;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network {
@@ -116,7 +118,11 @@ impl Network {
             for &edge in &self.away[node] {
                 let Edge { to, speed: limit, .. } = self.edges[edge];
                 let end = begin + self.length(edge) / speed.min(limit);
-                let is_better = end < seconds[to] || end == seconds[to] && last[to].is_some_and(|last| edge < last);
+                let is_same = (end - seconds[to]).abs() <= SAME * end;
+                let is_better = match last[to] {
+                    Some(last) if is_same => edge < last,
+                    _ => end < seconds[to],
+                };
                 if to != from && is_better {
                     (seconds[to], last[to]) = (end, Some(edge));
                     open.push(Reached { seconds: end, node: to });
@@ -155,8 +161,10 @@ impl Network {
         let speeds = edges.iter().map(|edge| self.edges[*edge].speed);
         let lead_speed = lead.and(edges.first()).map(|edge| self.edges[*edge].speed);
         for (number, speed) in lead_speed.into_iter().chain(speeds).enumerate() {
-            let turns_back = number > 0
-                && (corners[number] - corners[number - 1]).dot(corners[number + 1] - corners[number]) < 0.0;
+            let turns_back = number > 0 && {
+                let [before, after] = [number - 1, number].map(|corner| corners[corner + 1] - corners[corner]);
+                before.dot(after) < -SAME * before.length() * after.length()
+            };
             let stands = number == 1 && lead.is_some() && fast == 0.0;
             limits.push(Limits { speed, entry: if turns_back && !stands { 0.0 } else { f64::INFINITY } });
         }
@@ -182,5 +190,38 @@ impl Ord for Reached {
 impl PartialOrd for Reached {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With all nodes turned about the origin.
+    fn network(nodes: &[[f64; 2]], degrees: f64, ends: &[f64]) -> Network {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let turned = |[x, y]: &[f64; 2]| Point::new(cos * x - sin * y, sin * x + cos * y, 0.0);
+        Network::new(nodes.iter().map(turned).collect(), ends, None).expect("a network")
+    }
+
+    #[test]
+    fn at_right_angles_nothing_stops_however_it_lies() {
+        let square = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]];
+        for degrees in 0..180 {
+            let network = network(&square, f64::from(degrees), &[0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 0.0]);
+            let line = network.polyline(None, &[0, 1, 2], 0.0).expect("a line");
+            let stretches = line.stretches(0.0, line.length());
+            assert!(stretches.iter().all(|stretch| stretch.limits.entry > 0.0), "{degrees} degrees");
+        }
+    }
+
+    #[test]
+    fn of_equal_ways_the_one_with_lower_numbers_is_taken_however_it_lies() {
+        let diamond = [[0.0, 1.9], [4.0, 1.9], [8.0, 4.4], [8.0, -0.6], [12.0, 1.9]];
+        let ends = [0.0, 1.0, 1.0, 2.0, 2.0, 4.0, 1.0, 3.0, 3.0, 4.0, 4.0, 0.0];
+        for degrees in 0..180 {
+            let network = network(&diamond, f64::from(degrees), &ends);
+            assert_eq!(network.way(0, 4, 1.0), Some(vec![0, 1, 2]), "{degrees} degrees");
+        }
     }
 }

@@ -173,8 +173,10 @@ impl Polyline {
         all.take_while(move |(place, _)| *place <= to)
     }
 
-    /// How far a point is from the nearest place of a stretch that begins at `from` and ends at `to`, m.
+    /// How far a point is from the nearest place of a stretch that begins at `from` and ends at `to`, or at the end of the
+    /// line, m.
     pub fn distance(&self, point: Point, from: f64, to: f64) -> f64 {
+        let to = if self.is_closed { to } else { to.min(self.length) };
         let mut nearest = f64::INFINITY;
         let mut begin = from;
         loop {
@@ -218,6 +220,13 @@ mod tests {
         let corners: Vec<f64> = polyline.corners_between(3.0, 17.0).map(|(place, _)| place).collect();
         assert_eq!(corners, [4.0, 8.0, 12.0, 16.0]);
         assert_eq!(polyline.corners_between(4.0, 7.9).count(), 0);
+    }
+
+    #[test]
+    fn nothing_is_seen_beyond_the_end_of_an_open_line() {
+        let corners = [[0.0, 0.0], [6.0, 0.0]].map(|[x, y]| Point::new(x, y, 0.0));
+        let polyline = Polyline::new(&corners, false).expect("a track");
+        assert!((polyline.distance(Point::new(7.5, 0.0, 0.0), 5.0, 8.0) - 1.5).abs() < 1e-12);
     }
 
     #[test]

@@ -183,7 +183,7 @@ fn next_ms(tracks: &[Track], among: &Among, entries: &[Entry], ms: f64) -> f64 {
         if track.onto.is_some_and(|onto| tracks[onto].inputs.len() > 1) {
             comes_to(lane.lane().centre_line.end() + rider.half);
         }
-        if let Some(onto) = track.branches.iter().find_map(|branch| branch.takes(rider, entry.place, ms)) {
+        for onto in track.branches.iter().filter_map(|branch| branch.takes(rider, entry.place, ms)) {
             next = next.min(Spot::at_beginning(tracks, among, onto, rider).free_ms(tracks, among, ms));
         }
         for limit in &entry.limits {
