@@ -10,7 +10,7 @@ use crate::diagnostic::{self, Diagnostic};
 use crate::ir::Model;
 use crate::layout::{Layout, Panel, Reading};
 use crate::scenario::{Number, Scenario};
-use crate::source::{FileId, Sources};
+use crate::source::{FileId, Sources, Span};
 use crate::spec::{ast, parser};
 use crate::{connect, interlock, lint, scenario};
 use runtime_sim::plant::transfers;
@@ -123,6 +123,13 @@ impl Draft {
         self.diagnostics.extend(found);
         let is_right = self.diagnostics.is_empty();
         let machines = setting::machines(layout, model);
+        if is_right && machines.is_empty() {
+            let place = Span::new(layout.file, 0, 0);
+            let message = "the layout has no machine, so there is nothing to control";
+            let help = "add one to \"robots\": an object whose type has an automaton";
+            self.diagnostics.push(Diagnostic::new("E0512", place, message).help(help));
+            return None;
+        }
         setting::check(settings, &machines, &mut self.diagnostics);
         if !is_right {
             return None;
