@@ -39,6 +39,8 @@ mod parts;
 mod replications;
 #[path = "command_line/report.rs"]
 mod report;
+#[path = "command_line/restarts.rs"]
+mod restarts;
 #[path = "command_line/side_by_side.rs"]
 mod side_by_side;
 #[path = "command_line/sweep.rs"]

@@ -8,7 +8,7 @@ use crate::Status;
 use autogen::ir::{FaultKind, Severity};
 use autogen::lower::{Project, compile};
 use autogen::source::{Sources, Span};
-use autogen::why::{self, Await, Later, Node, Picture, Promise, Read, Standing, Verdict, Waits, Watch};
+use autogen::why::{self, Await, How, Later, Node, Picture, Promise, Read, Standing, Verdict, Waits, Watch};
 use runtime_sim::carrier::Carrier;
 use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::machine::Machine;
@@ -296,10 +296,17 @@ fn later_json(picture: &Picture, became: &why::Became) -> Value {
             .collect();
         json!({ "guard": title, "clauses": clauses })
     });
+    let (to, begins_anew) = match became.left.as_ref().map(|left| &left.how) {
+        None => (None, None),
+        Some(How::Fired(_, to)) => (Some(to), None),
+        Some(How::MovedByHand) => (None, Some("moved by hand")),
+        Some(How::PowerLost) => (None, Some("loss of power")),
+    };
     json!({
         "name": picture.machines[became.machine].name,
-        "left_s": became.left.as_ref().map(|left| seconds(left.0)),
-        "to": became.left.as_ref().map(|left| &left.2),
+        "left_s": became.left.as_ref().map(|left| seconds(left.at_ms)),
+        "to": to,
+        "begins_anew": begins_anew,
         "transitions": transitions.collect::<Vec<_>>(),
     })
 }
