@@ -45,6 +45,8 @@ mod restarts;
 mod side_by_side;
 #[path = "command_line/sweep.rs"]
 mod sweep;
+#[path = "command_line/sweep_values.rs"]
+mod sweep_values;
 #[path = "command_line/tests_of_users.rs"]
 mod tests_of_users;
 #[path = "command_line/why.rs"]

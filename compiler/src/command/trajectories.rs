@@ -41,7 +41,7 @@ impl Request {
                 let content = content(path).ok_or_else(|| {
                     format!("--trajectories {}: the name has to end in .csv, .json or .svg", path.display())
                 })?;
-                Ok((Pending::new(path, content, options.build.overwrite())?, content))
+                Ok((Pending::new(path, content, options.build.overwrite().into())?, content))
             })
             .collect::<Result<_, String>>()?;
         let every_ms = milliseconds(every).ok_or_else(|| {
