@@ -33,6 +33,8 @@ mod interrupted_write;
 mod machines;
 #[path = "command_line/misplaced.rs"]
 mod misplaced;
+#[path = "command_line/output_folder.rs"]
+mod output_folder;
 #[path = "command_line/parts.rs"]
 mod parts;
 #[path = "command_line/replications.rs"]
