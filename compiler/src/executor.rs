@@ -38,6 +38,8 @@ pub enum Entry {
     Changed { robot: usize, what: Element },
     /// A transition of the state in which the instance was, by its number.
     Fired { robot: usize, transition: usize },
+    /// An instance is in its beginning again, and was in another state.
+    BeganAnew { robot: usize },
 }
 
 #[derive(Clone, Debug)]
@@ -155,6 +157,36 @@ impl<'a> Executor<'a> {
     /// What has happened since the last time, in order.
     pub fn take_journal(&mut self) -> Vec<Entry> {
         self.journal.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Stores a value that an instance has changed, or that changes with it.
+    fn put(&mut self, robot: usize, what: Element, value: Value) {
+        let changed = self.element(what) != value;
+        // What is equal is stored too: -0.0 is equal to 0.0, and is another value.
+        self.set(what, value);
+        if changed {
+            self.note(Entry::Changed { robot, what });
+        }
+    }
+
+    fn put_local(&mut self, robot: usize, local: usize, value: Value) {
+        for index in 0..self.robots[robot].locals[local].len() {
+            self.put(robot, Element::Local { robot, local, index }, value);
+        }
+    }
+
+    /// A port is as at power-up.
+    fn put_first(&mut self, robot: usize, port: usize) {
+        let value = Self::first_value(self.system.automaton_of(robot).device.ports[port].ty);
+        for index in 0..self.robots[robot].ports[port].len() {
+            self.put(robot, Element::Port { robot, port, index }, value);
+        }
+    }
+
+    fn put_beginning(&mut self, robot: usize) {
+        if std::mem::take(&mut self.robots[robot].state) != 0 {
+            self.note(Entry::BeganAnew { robot });
+        }
     }
 
     fn note(&mut self, entry: Entry) {

@@ -3,7 +3,7 @@
 
 use autogen::executor::Executor;
 use autogen::lower::Project;
-use autogen::why::{self, Node, Picture, Verdict, Waits, Watch};
+use autogen::why::{self, How, Left, Node, Picture, Verdict, Waits, Watch};
 use autogen_tests::{Texts, ariac, root, side_by_side, text};
 use runtime_sim::line::Pause;
 use runtime_sim::run::{Seen, Stepping, run};
@@ -134,7 +134,8 @@ fn clauses_become_true_no_later_than_their_transition_fires() {
     let later = later.expect("it was asked for");
     insta::assert_snapshot!("until", why::later(&picture, &later));
     let became = &later.machines[0];
-    let (left, by, _) = became.left.clone().expect("it leaves its state");
+    let Left { at_ms: left, how } = became.left.clone().expect("it leaves its state");
+    let How::Fired(by, _) = how else { panic!("it leaves by a transition") };
     assert!(became.transitions[by].1.iter().all(|(_, since)| since.is_some_and(|since| since <= left)));
     assert!(left > picture.at_ms);
 }

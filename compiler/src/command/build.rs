@@ -2,7 +2,7 @@
 
 use super::copies::{Copies, copies};
 use super::options::{Addresses, BuildCommandOptions, BuildOptions, Format};
-use super::output::{self, Make, Output, Refusal};
+use super::output::{self, Make, Output, Overwrite, Refusal};
 use super::{differences, dropped, io_error, load, print, read};
 use crate::Status;
 use autogen::backend::{Files, Folder, Sink, dot, plan, rust, sdf, st};
@@ -212,11 +212,17 @@ pub fn is_where_it_seems(options: &BuildOptions, built: &Built) -> Result<(), Re
 pub fn open(options: &BuildOptions, built: &Built) -> Result<Output, Refusal> {
     is_where_it_seems(options, built)?;
     let says = options.input.format == Format::Text && !options.input.quiet;
-    Output::open(&built.folder, read::files(), || {
+    let output = Output::open(&built.folder, read::files(), || {
         if says {
             complain!("waiting for another autogen that writes to {} ...", built.folder.display());
         }
-    })
+    })?;
+    // Names of layouts lead here, and two may be the same.
+    if options.output.is_none() && options.overwrite() == Overwrite::Own {
+        let layout = plain::line(&options.input.layout.display().to_string());
+        output.is_of_layout(&title(&options.input.layout, &layout))?;
+    }
+    Ok(output)
 }
 
 /// Writes the files of what was built, and returns their names.
@@ -372,6 +378,10 @@ pub fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
         Refusal::Inputs(paths) => format!(
             "not written: these files are inputs, and would be overwritten:\n  {}\nChoose another folder with -o.",
             list(paths)
+        ),
+        Refusal::OfAnotherLayout(folder, command) => format!(
+            "not written: {} has what `{command}` has built from another layout, and both layouts have the same name.\nGive one of them another name with its key \"name\", choose another folder with -o, or overwrite it with --force.",
+            plain::line(&folder.display().to_string())
         ),
         Refusal::Io(path, error) => format!("{}: {}", path.display(), io_error::text(error)),
     };

@@ -66,7 +66,7 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     are_different(options)?;
     let overwrite = options.build.overwrite();
     let pending = |path: &Option<PathBuf>, content: Content| {
-        path.as_ref().map(|path| Pending::new(path, content, overwrite)).transpose()
+        path.as_ref().map(|path| Pending::new(path, content, overwrite.into())).transpose()
     };
     let files = Requested {
         io_trace: pending(&options.io_trace, Content::IoTrace)?,

@@ -1,6 +1,7 @@
 //! `autogen compare`: two results, or the runs of two layouts on the reference executor.
 
 mod first;
+mod seen;
 mod table;
 
 use super::options::{CompareOptions, Format};

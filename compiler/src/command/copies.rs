@@ -37,8 +37,11 @@ pub fn copies(options: &BuildOptions, sources: &Sources) -> Copies {
             files.insert(format!("{FOLDER}/{copy}"), file.text.clone());
         }
     }
-    let copy =
-        |path: &Path| names.get(&*plain::line(&path.display().to_string())).cloned().unwrap_or_default();
+    let copy = |path: &Path| {
+        let name = names.get(&*plain::line(&path.display().to_string())).cloned().unwrap_or_default();
+        // It would be taken for an option.
+        if name.starts_with('-') { format!("./{name}") } else { name }
+    };
     let mut words = vec!["autogen".into(), "build".into(), copy(&options.input.layout)];
     let mut option = |name: &str, value: String| words.extend([format!("--{name}"), value]);
     for file in options.input.specs.iter().flat_map(|path| automata(path).unwrap_or_default()) {

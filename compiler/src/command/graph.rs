@@ -1,6 +1,6 @@
 //! `autogen graph`.
 
-use super::options::GraphOptions;
+use super::options::{Format, GraphOptions};
 use super::{load, print};
 use crate::Status;
 use autogen::backend::{dot, plan};
@@ -8,6 +8,10 @@ use autogen::lower::compile;
 use autogen::naming;
 
 pub fn run(options: &GraphOptions) -> Status {
+    if options.input.format == Format::Json {
+        complain!("autogen: --format json: a graph is DOT, and the plan SVG; leave the option out");
+        return Status::WrongCommand;
+    }
     let input = match load::load(&options.input) {
         Ok(input) => input,
         Err(failure) => return print::failure(&options.input, &failure),

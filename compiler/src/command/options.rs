@@ -294,7 +294,7 @@ or `--check` found one that is not formatted; 2 wrong command line.";
 
 const SWEEP_STATUS: &str = "A point that is refused, faults or runs out of time is a row with its reason.
 
-Exit status: 0 all points made all their orders; 1 every layout has errors that no value removes; \
+Exit status: 0 all points made all their orders; 1 every layout has errors in its texts or types; \
 2 wrong command line, or the controllers could not be compiled; 3 some points were refused or did not reach their goal; 70 a bug in autogen.";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

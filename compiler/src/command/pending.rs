@@ -71,6 +71,40 @@ const NAME: usize = 50;
 /// Bytes by which contents are told from one another.
 const BEGINNING: u64 = 256;
 
+/// What becomes of a file that is something else.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Foreign {
+    /// The command has no option to overwrite it.
+    Stays,
+    StaysWithoutForce,
+    Overwritten,
+}
+
+impl From<Overwrite> for Foreign {
+    fn from(overwrite: Overwrite) -> Self {
+        match overwrite {
+            Overwrite::Own => Self::StaysWithoutForce,
+            Overwrite::Everything => Self::Overwritten,
+        }
+    }
+}
+
+/// An error says what is in the way of a file.
+pub fn check(path: &Path, content: Content, foreign: Foreign) -> Result<(), String> {
+    if path.metadata().is_ok_and(|there| !there.is_file()) {
+        return Err(format!("{}: this is not a file", path.display()));
+    }
+    let instead = match foreign {
+        Foreign::Stays => "choose another one, or move it to another place",
+        Foreign::StaysWithoutForce => "choose another one, or overwrite it with --force",
+        Foreign::Overwritten => return Ok(()),
+    };
+    match is_free(path, content)? {
+        true => Ok(()),
+        false => Err(format!("{}: this file is not a {}; {instead}", path.display(), content.name())),
+    }
+}
+
 /// A file to come.
 #[derive(Debug)]
 pub struct Pending {
@@ -81,19 +115,10 @@ pub struct Pending {
 
 impl Pending {
     /// An error says what is in the way.
-    pub fn new(path: &Path, content: Content, overwrite: Overwrite) -> Result<Self, String> {
+    pub fn new(path: &Path, content: Content, foreign: Foreign) -> Result<Self, String> {
         let failed = |e: io::Error| format!("{}: {}", path.display(), io_error::text(&e));
         let name = path.file_name().ok_or_else(|| format!("{}: this is not a file", path.display()))?;
-        if path.metadata().is_ok_and(|there| !there.is_file()) {
-            return Err(format!("{}: this is not a file", path.display()));
-        }
-        if overwrite == Overwrite::Own && !is_free(path, content)? {
-            return Err(format!(
-                "{}: this file is not a {}; choose another one, or overwrite it with --force",
-                path.display(),
-                content.name()
-            ));
-        }
+        check(path, content, foreign)?;
         let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let begin: String = name.to_string_lossy().chars().take(NAME).collect();
         let begin = format!(".{begin}.");
@@ -187,17 +212,18 @@ mod tests {
         ];
         for (content, text) in texts {
             fs::write(&path, "{}").unwrap();
-            let refused = Pending::new(&path, content, Overwrite::Own).unwrap_err();
-            assert!(refused.contains(content.name()), "{refused}");
-            assert!(
-                Pending::new(&folder, content, Overwrite::Everything).unwrap_err().contains("not a file")
-            );
-            assert!(Pending::new(&folder.join("none/file"), content, Overwrite::Own).is_err());
-            let pending = Pending::new(&path, content, Overwrite::Everything).unwrap();
+            for (foreign, has_force) in [(Foreign::Stays, false), (Foreign::StaysWithoutForce, true)] {
+                let refused = Pending::new(&path, content, foreign).unwrap_err();
+                assert!(refused.contains(content.name()), "{refused}");
+                assert_eq!(refused.contains("--force"), has_force, "{refused}");
+            }
+            assert!(Pending::new(&folder, content, Foreign::Overwritten).unwrap_err().contains("not a file"));
+            assert!(Pending::new(&folder.join("none/file"), content, Foreign::Stays).is_err());
+            let pending = Pending::new(&path, content, Foreign::Overwritten).unwrap();
             pending.write(text).unwrap();
             pending.keep().unwrap();
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
-            drop(Pending::new(&path, content, Overwrite::Own).unwrap());
+            drop(Pending::new(&path, content, Foreign::Stays).unwrap());
             assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "what was begun is removed");
         }
         fs::remove_dir_all(&folder).unwrap();

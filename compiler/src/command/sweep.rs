@@ -6,6 +6,7 @@
 pub mod axis;
 mod columns;
 mod design;
+mod distinct;
 mod grid;
 mod head;
 mod in_order;

@@ -5,8 +5,7 @@ pub mod junit;
 mod run;
 
 use super::options::{TestEngine, TestOptions};
-use super::output::Overwrite;
-use super::pending::{Content, Pending};
+use super::pending::{Content, Foreign, Pending};
 use super::print;
 use crate::Status;
 use autogen::source::Sources;
@@ -46,7 +45,7 @@ pub fn run(options: &TestOptions) -> Status {
         Status::WrongCommand
     };
     let junit =
-        options.junit.as_ref().map(|path| Pending::new(path, Content::JUnit, Overwrite::Own)).transpose();
+        options.junit.as_ref().map(|path| Pending::new(path, Content::JUnit, Foreign::Stays)).transpose();
     let junit = match junit {
         Ok(junit) => junit,
         Err(why) => return refused(why),

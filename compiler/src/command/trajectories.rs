@@ -41,7 +41,7 @@ impl Request {
                 let content = content(path).ok_or_else(|| {
                     format!("--trajectories {}: the name has to end in .csv, .json or .svg", path.display())
                 })?;
-                Ok((Pending::new(path, content, options.build.overwrite())?, content))
+                Ok((Pending::new(path, content, options.build.overwrite().into())?, content))
             })
             .collect::<Result<_, String>>()?;
         let every_ms = milliseconds(every).ok_or_else(|| {
@@ -70,11 +70,12 @@ impl Request {
         self.files.is_empty()
     }
 
-    /// Writes the paths of all items of the line's supply: all files, or none.
+    /// Writes the paths of the items asked for, or of all that came onto the line: all files, or none. `paths` are those
+    /// of all items of the supply.
     pub fn write(self, project: &Project, line: &Line, paths: &[path::Path]) -> Result<(), String> {
         let names = item::Names::new(line).all();
         let chosen: Vec<usize> = match self.items.is_empty() {
-            true => (0..names.len()).collect(),
+            true => (0..names.len()).filter(|item| !paths[*item].segments.is_empty()).collect(),
             false => self.items.iter().filter_map(|own| names.iter().position(|name| name == own)).collect(),
         };
         for (file, content) in &self.files {

@@ -5,7 +5,7 @@ mod report;
 
 use super::interrupt;
 use super::options::{self, Format, VerifyOptions};
-use super::pending::{Content, Pending};
+use super::pending::{Content, Foreign, Pending};
 use super::{load, print};
 use crate::Status;
 use autogen::lower::compile;
@@ -40,9 +40,8 @@ pub fn run(options: &VerifyOptions) -> Status {
             return Status::WrongCommand;
         }
     };
-    let overwrite = super::output::Overwrite::Own;
     let pending = |path: &Option<PathBuf>, content: Content| {
-        path.as_ref().map(|path| Pending::new(path, content, overwrite)).transpose()
+        path.as_ref().map(|path| Pending::new(path, content, Foreign::Stays)).transpose()
     };
     let files = pending(&options.counterexample, Content::Scenario)
         .and_then(|scenario| Ok((scenario, pending(&options.report, Content::Report)?)));

@@ -8,7 +8,7 @@ use crate::Status;
 use autogen::ir::{FaultKind, Severity};
 use autogen::lower::{Project, compile};
 use autogen::source::{Sources, Span};
-use autogen::why::{self, Await, Later, Node, Picture, Promise, Read, Standing, Verdict, Waits, Watch};
+use autogen::why::{self, Await, How, Later, Node, Picture, Promise, Read, Standing, Verdict, Waits, Watch};
 use runtime_sim::carrier::Carrier;
 use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::machine::Machine;
@@ -35,7 +35,8 @@ pub fn run(options: &WhyOptions) -> Status {
     match seen {
         Ok(seen) => {
             match options.input.format {
-                Format::Text => say_text(options, &seen, &outcome.sources),
+                Format::Text if !options.input.quiet => say_text(options, &seen, &outcome.sources),
+                Format::Text => {}
                 Format::Json => say!("{}", json_of(&seen, &outcome.sources)),
             }
             Status::Done
@@ -142,7 +143,8 @@ fn look(project: &Project, question: Question, mut progress: Progress) -> Result
     if is_until {
         watch = watch.until_left(machines.clone());
     } else if let Some(at) = at {
-        let limit_s = (at + 1) as f64 * f64::from(line.scan_ms) / 1000.0;
+        // One scan more: a run that has ended before it has ended by itself.
+        let limit_s = (at + 2) as f64 * f64::from(line.scan_ms) / 1000.0;
         line.scenario.time_limit_s = line.scenario.time_limit_s.min(limit_s);
     }
     let mut sources = Supplies::of(&line);
@@ -191,7 +193,7 @@ fn say_text(options: &WhyOptions, seen: &Seen, sources: &Sources) {
     let Seen { picture, machines, later, report, is_end } = seen;
     let waits = seen.waits();
     say!("at {:.2} s", picture.at_ms as f64 / 1000.0);
-    if *is_end && (options.at.is_none() || picture.at_ms + 1000 < asked_ms(options)) {
+    if *is_end {
         say!("the run ends here: {}", report.reason);
     }
     if let Some(fault) = &picture.fault {
@@ -214,10 +216,6 @@ fn say_text(options: &WhyOptions, seen: &Seen, sources: &Sources) {
     if let Some(later) = later {
         say_part!("\n{}", why::later(picture, later));
     }
-}
-
-fn asked_ms(options: &WhyOptions) -> u64 {
-    options.at.as_ref().and_then(|at| scan(at, 1)).unwrap_or(0)
 }
 
 fn json_of(seen: &Seen, sources: &Sources) -> Value {
@@ -296,10 +294,17 @@ fn later_json(picture: &Picture, became: &why::Became) -> Value {
             .collect();
         json!({ "guard": title, "clauses": clauses })
     });
+    let (to, begins_anew) = match became.left.as_ref().map(|left| &left.how) {
+        None => (None, None),
+        Some(How::Fired(_, to)) => (Some(to), None),
+        Some(How::MovedByHand) => (None, Some("moved by hand")),
+        Some(How::PowerLost) => (None, Some("loss of power")),
+    };
     json!({
         "name": picture.machines[became.machine].name,
-        "left_s": became.left.as_ref().map(|left| seconds(left.0)),
-        "to": became.left.as_ref().map(|left| &left.2),
+        "left_s": became.left.as_ref().map(|left| seconds(left.at_ms)),
+        "to": to,
+        "begins_anew": begins_anew,
         "transitions": transitions.collect::<Vec<_>>(),
     })
 }

@@ -49,17 +49,14 @@ impl Executor<'_> {
     fn begin_anew(&mut self, robot: usize) {
         let system = self.system;
         let automaton = system.automaton_of(robot);
-        let kept = &mut self.robots[robot];
-        kept.state = 0;
-        kept.elapsed = 0;
-        for (number, (values, local)) in kept.locals.iter_mut().zip(&automaton.locals).enumerate() {
+        self.put_beginning(robot);
+        self.robots[robot].elapsed = 0;
+        for (number, local) in automaton.locals.iter().enumerate() {
             if local.kept_by != KeptBy::Modes && !automaton.retained.locals.contains(&number) {
-                values.fill(local.initial);
+                self.put_local(robot, number, local.initial);
             }
         }
-        for port in automaton.outputs_that_begin_anew() {
-            kept.ports[port].fill(Self::first_value(automaton.device.ports[port].ty));
-        }
+        automaton.outputs_that_begin_anew().for_each(|port| self.put_first(robot, port));
         self.cells_begin_anew(robot);
     }
 

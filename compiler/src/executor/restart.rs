@@ -1,7 +1,7 @@
 //! Going on after a loss of power.
 
 use super::{Alarm, Executor, Status};
-use crate::ir::Value;
+use crate::ir::{Element, Value};
 use runtime_sim::device::Direction;
 
 impl Executor<'_> {
@@ -21,23 +21,23 @@ impl Executor<'_> {
         let system = self.system;
         let automaton = system.automaton_of(robot);
         let retained = &automaton.retained;
-        let kept = &mut self.robots[robot];
-        if !retained.state || !automaton.states[kept.state].is_resumable {
-            kept.state = 0;
+        if !retained.state || !automaton.states[self.robots[robot].state].is_resumable {
+            self.put_beginning(robot);
         }
+        let kept = &mut self.robots[robot];
         kept.elapsed = 0;
         kept.stopped = false;
         kept.alarms.fill(Alarm::NONE);
-        for (number, (values, local)) in kept.locals.iter_mut().zip(&automaton.locals).enumerate() {
+        for (number, local) in automaton.locals.iter().enumerate() {
             if !retained.locals.contains(&number) {
-                values.fill(local.initial);
+                self.put_local(robot, number, local.initial);
             }
         }
-        for (number, (values, port)) in kept.ports.iter_mut().zip(&automaton.device.ports).enumerate() {
+        for (number, port) in automaton.device.ports.iter().enumerate() {
             let is_command = matches!(port.name.as_str(), "cmd" | "verb") && automaton.device.is_commanded();
             let stays = retained.ports.contains(&number) || retained.state && is_command;
             if port.direction == Direction::Input || !stays {
-                values.fill(Self::first_value(port.ty));
+                self.put_first(robot, number);
             }
         }
         self.cells_begin_anew(robot);
@@ -52,12 +52,13 @@ impl Executor<'_> {
         let system = self.system;
         let automaton = system.automaton_of(robot);
         for (implemented, row) in automaton.implements.iter().zip(&system.instances[robot].rows) {
-            let interface = implemented.interface;
-            let cells =
-                self.cells[interface.0][*row].iter_mut().zip(&system.model.interface(interface).cells);
-            for (number, (values, cell)) in cells.enumerate() {
-                if !automaton.retained.cells.contains(&(interface, number)) {
-                    values.fill(cell.initial);
+            let (interface, row) = (implemented.interface, *row);
+            for (cell, declared) in system.model.interface(interface).cells.iter().enumerate() {
+                if automaton.retained.cells.contains(&(interface, cell)) {
+                    continue;
+                }
+                for index in 0..self.cells[interface.0][row][cell].len() {
+                    self.put(robot, Element::Cell { interface, row, cell, index }, declared.initial);
                 }
             }
         }
@@ -72,7 +73,7 @@ impl Executor<'_> {
 
     fn set_truth(&mut self, robot: usize, local: Option<usize>, truth: bool) {
         if let Some(local) = local {
-            self.robots[robot].locals[local][0] = Value::Bool(truth);
+            self.put_local(robot, local, Value::Bool(truth));
         }
     }
 

@@ -197,16 +197,7 @@ impl Executor<'_> {
     ) -> Result<(), FaultId> {
         let (kept, fits) = fitted(ty, value);
         if let (Some(kept), Some(what)) = (kept, element(robot, place, (row, index))) {
-            let value = match what {
-                Element::Local { local, .. } => &mut self.robots[robot].locals[local][index],
-                Element::Port { port, .. } => &mut self.robots[robot].ports[port][index],
-                Element::Cell { interface, cell, .. } => &mut self.cells[interface.0][row][cell][index],
-            };
-            // What is equal is stored too: -0.0 is equal to 0.0, and is another value.
-            let changed = std::mem::replace(value, kept) != kept;
-            if changed {
-                self.note(Entry::Changed { robot, what });
-            }
+            self.put(robot, what, kept);
         }
         match check {
             Some(fault) if !fits => Err(fault),

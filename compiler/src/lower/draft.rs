@@ -10,7 +10,7 @@ use crate::diagnostic::{self, Diagnostic};
 use crate::ir::Model;
 use crate::layout::{Layout, Panel, Reading};
 use crate::scenario::{Number, Scenario};
-use crate::source::{FileId, Sources};
+use crate::source::{FileId, Sources, Span};
 use crate::spec::{ast, parser};
 use crate::{connect, interlock, lint, scenario};
 use runtime_sim::plant::transfers;
@@ -85,8 +85,8 @@ impl Draft {
         // What could not be read is missed by what was read: what follows from that would only confuse.
         let checked = syntax_is_right.then(|| check::check(sources, &files, kinds.as_deref()));
         let checked = checked.and_then(|checked| checked.map_err(|found| diagnostics.extend(found)).ok());
-        let listed = scenario.as_ref().filter(|s| s.orders.number == Number::Listed);
-        let orders = listed.map(|s| s.orders.list.len());
+        let of_its_own = scenario.as_ref().filter(|scenario| !scenario.is_built_in(sources));
+        let orders = of_its_own.and_then(number_of_orders);
         let goal = scenario.as_ref().map(|s| s.goal.as_slice()).filter(|goal| !goal.is_empty());
         let items = goal.map(|goal| goal.iter().flat_map(|sink| &sink.items).map(|n| u64::from(*n)).sum());
         let name = layout.as_ref().map(|l| l.name.clone());
@@ -98,6 +98,7 @@ impl Draft {
                 let makes = model.automata.iter().any(|a| a.device.has("orders") || a.device.has("source"));
                 let is_for_it = makes || !scenario.is_built_in(sources);
                 let scenario = if is_for_it { scenario } else { scenario.without_orders() };
+                draft.orders = number_of_orders(&scenario);
                 Parts { layout, scenario, model }
             });
         }
@@ -123,6 +124,13 @@ impl Draft {
         self.diagnostics.extend(found);
         let is_right = self.diagnostics.is_empty();
         let machines = setting::machines(layout, model);
+        if is_right && machines.is_empty() {
+            let place = Span::new(layout.file, 0, 0);
+            let message = "the layout has no machine, so there is nothing to control";
+            let help = "add one to \"robots\": an object whose type has an automaton";
+            self.diagnostics.push(Diagnostic::new("E0512", place, message).help(help));
+            return None;
+        }
         setting::check(settings, &machines, &mut self.diagnostics);
         if !is_right {
             return None;
@@ -168,7 +176,7 @@ impl Draft {
         self.name.as_deref()
     }
 
-    /// Number of orders of the scenario, if it has one and that can be read.
+    /// Number of orders of the scenario; none if they have no end, or if it is not known.
     pub fn orders(&self) -> Option<usize> {
         self.orders
     }
@@ -176,6 +184,13 @@ impl Draft {
     /// Number of items that the sinks of a goal should collect, if the scenario has one and can be read.
     pub fn items(&self) -> Option<u64> {
         self.items
+    }
+
+    /// Whether a setting is of the scenario's supply; not known of a draft with errors.
+    pub fn is_of_supply(&self, setting: &Setting) -> bool {
+        self.parts.as_ref().is_some_and(|parts| {
+            setting::is_of_supply(setting, &setting::machines(&parts.layout, &parts.model))
+        })
     }
 
     /// The line with these values, and with its instances in layout order or in one drawn from `order`.
@@ -194,6 +209,14 @@ impl Draft {
             line.project = None;
         }
         line
+    }
+}
+
+fn number_of_orders(scenario: &Scenario) -> Option<usize> {
+    match scenario.orders.number {
+        Number::Listed => Some(scenario.orders.list.len()),
+        Number::None => Some(0),
+        Number::WithoutEnd => None,
     }
 }
 

@@ -76,7 +76,7 @@ const SUPPLY: &str = "supply";
 const SEED: &str = "seed";
 
 /// Whether a setting concerns the supply: a type or a robot of this name comes first.
-fn is_of_supply(setting: &Setting, machines: &[Machine]) -> bool {
+pub fn is_of_supply(setting: &Setting, machines: &[Machine]) -> bool {
     setting.target == SUPPLY && !machines.iter().any(|(object, _)| setting.applies_to(object))
 }
 

@@ -15,7 +15,7 @@ mod writers;
 
 pub use chain::Waits;
 pub use report::{chain_of, chains, empty_sources, later, machine};
-pub use until::{Became, Later};
+pub use until::{Became, How, Later, Left};
 pub use watch::Watch;
 
 use crate::ir::Severity;

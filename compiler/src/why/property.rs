@@ -41,7 +41,7 @@ impl<'a> Look<'_, 'a> {
         let alarm = self.watch.executor.alarms(self.robot)[alarm];
         (alarm.active || !alarm.acknowledged).then(|| Standing::Alarm {
             severity: property.severity,
-            raised_ms: self.watch.ms(alarm.last as u64),
+            raised_ms: self.watch.ms_since_power_up(alarm.last),
             active: alarm.active,
             acknowledged: alarm.acknowledged,
         })

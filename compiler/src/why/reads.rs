@@ -1,6 +1,7 @@
 //! What the parts of guards read: values, who writes them, and when they changed last.
 
 use super::guard::Look;
+use super::watch::By;
 use super::{Await, Changed, Read};
 use crate::ir::{Element, Expr, ExprKind, Place, Scalar, Value};
 use runtime_sim::device::Direction;
@@ -92,13 +93,13 @@ impl<'a> Look<'_, 'a> {
 
     fn value(&self, element: Element, ty: Scalar) -> Read {
         let (system, watch) = (self.watch.system, &*self.watch);
-        let automaton = system.automaton_of(self.robot);
-        let is_input = |port: usize| automaton.device.ports[port].direction == Direction::Input;
         let changed = watch.last.get(&element).map(|change| {
-            let own = &system.instances[change.robot].name;
-            let by = match element {
-                Element::Port { port, .. } if is_input(port) => format!("the device of {own}"),
-                _ => own.clone(),
+            let by = match change.by {
+                By::LossOfPower => "the loss of power".into(),
+                By::Machine(robot) if watch.is_input(element) => {
+                    format!("the device of {}", system.instances[robot].name)
+                }
+                By::Machine(robot) => system.instances[robot].name.clone(),
             };
             Changed { at_ms: watch.ms(change.scan), by }
         });

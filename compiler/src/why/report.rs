@@ -1,7 +1,9 @@
 //! A picture as text.
 
 use super::reads::{COMMAND, STAY};
-use super::{Await, Changed, Later, Machine, Node, Picture, Promise, Read, Standing, Tested, Verdict, Waits};
+use super::{
+    Await, Changed, How, Later, Left, Machine, Node, Picture, Promise, Read, Standing, Tested, Verdict, Waits,
+};
 use crate::ir::Severity;
 use crate::source::{Sources, Span};
 use std::fmt::Write;
@@ -255,9 +257,13 @@ pub fn later(picture: &Picture, later: &Later) -> String {
     for became in &later.machines {
         let Machine { name, state, .. } = &picture.machines[became.machine];
         let _ = match &became.left {
-            Some((ms, by, to)) => {
-                let title = &became.transitions[*by].0;
-                writeln!(out, "{name} leaves {state} at {} for {to}: {title}", seconds(*ms))
+            Some(Left { at_ms, how }) => {
+                let how = match how {
+                    How::Fired(by, to) => format!(" for {to}: {}", became.transitions[*by].0),
+                    How::MovedByHand => ": it was moved by hand, and begins anew".into(),
+                    How::PowerLost => ": it has lost its power, and begins anew".into(),
+                };
+                writeln!(out, "{name} leaves {state} at {}{how}", seconds(*at_ms))
             }
             None => writeln!(out, "{name} stays in {state} to the end of the run"),
         };

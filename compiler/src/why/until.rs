@@ -19,8 +19,24 @@ pub struct Became {
     state: usize,
     /// For each transition of the state its title and its clauses, each with the time at which it first held.
     pub transitions: Vec<(String, Vec<Since>)>,
-    /// When it left the state, by which of them, and the new state.
-    pub left: Option<(u64, usize, String)>,
+    pub left: Option<Left>,
+}
+
+/// How a machine left its state.
+#[derive(Clone, Debug)]
+pub struct Left {
+    pub at_ms: u64,
+    pub how: How,
+}
+
+#[derive(Clone, Debug)]
+pub enum How {
+    /// By one of [`Became::transitions`], for this state.
+    Fired(usize, String),
+    /// It began anew because a person had moved it.
+    MovedByHand,
+    /// It began anew because power was lost.
+    PowerLost,
 }
 
 /// A clause, with the time at which it first held, ms.
@@ -70,20 +86,38 @@ impl Later {
     pub(super) fn take(&mut self, watch: &mut Watch, scan: u64, journal: &[Entry]) {
         for became in self.machines.iter_mut().filter(|became| became.left.is_none()) {
             let automaton = watch.system.automaton_of(became.machine);
+            let ms = watch.ms(scan);
             let fired = journal.iter().find_map(|entry| match entry {
-                Entry::Fired { robot, transition } if *robot == became.machine => Some(*transition),
+                Entry::Fired { robot, transition } if *robot == became.machine => Some(Some(*transition)),
+                Entry::BeganAnew { robot } if *robot == became.machine => Some(None),
                 _ => None,
             });
-            let Some(fired) = fired else { continue };
-            let ms = watch.ms(scan);
+            let fired = match fired {
+                Some(Some(fired)) => fired,
+                Some(None) => {
+                    became.left = Some(Left { at_ms: ms, how: How::MovedByHand });
+                    continue;
+                }
+                None => continue,
+            };
             became.transitions[fired].1.iter_mut().for_each(|(_, since)| {
                 since.get_or_insert(ms);
             });
             if let Some(target) = automaton.states[became.state].transitions[fired].target {
-                became.left = Some((ms, fired, automaton.states[target.0].name.clone()));
+                let how = How::Fired(fired, automaton.states[target.0].name.clone());
+                became.left = Some(Left { at_ms: ms, how });
             }
         }
         self.look(watch, watch.ms(scan));
+    }
+
+    /// Power was lost and is back.
+    pub(super) fn lose_power(&mut self, at_ms: u64, journal: &[Entry]) {
+        for became in self.machines.iter_mut().filter(|became| became.left.is_none()) {
+            if journal.contains(&Entry::BeganAnew { robot: became.machine }) {
+                became.left = Some(Left { at_ms, how: How::PowerLost });
+            }
+        }
     }
 
     fn look(&mut self, watch: &mut Watch, ms: u64) {

@@ -3,7 +3,8 @@
 use super::until::Later;
 use super::{Picture, guard};
 use crate::executor::{Entry, Executor};
-use crate::ir::{Element, FaultId, System};
+use crate::ir::{Element, FaultId, System, Value};
+use runtime_sim::device::Direction;
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 use std::collections::HashMap;
 
@@ -11,7 +12,14 @@ use std::collections::HashMap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Change {
     pub scan: u64,
-    pub robot: usize,
+    pub by: By,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum By {
+    /// An instance, or its device for an input.
+    Machine(usize),
+    LossOfPower,
 }
 
 /// The fault in which the line stands.
@@ -28,6 +36,10 @@ pub struct Watch<'a> {
     pub(super) executor: Executor<'a>,
     pub(super) last: HashMap<Element, Change>,
     pub(super) fault: Option<Stopped>,
+    /// What inputs were before a loss of power, until they are latched after it.
+    before_loss: HashMap<Element, Value>,
+    /// The first scan since the last power-up.
+    powered_up: u64,
     /// After this scan the picture is taken.
     at: u64,
     next_scan: u64,
@@ -40,8 +52,18 @@ impl<'a> Watch<'a> {
     pub fn new(system: &'a System, at: u64) -> Self {
         let mut executor = Executor::new(system);
         executor.keep_journal();
-        let last = HashMap::new();
-        Self { system, executor, last, fault: None, at, next_scan: 0, picture: None, later: None }
+        Self {
+            system,
+            executor,
+            last: HashMap::new(),
+            fault: None,
+            before_loss: HashMap::new(),
+            powered_up: 0,
+            at,
+            next_scan: 0,
+            picture: None,
+            later: None,
+        }
     }
 
     /// Also looks on, until each of these machines has left the state in which it is then.
@@ -70,6 +92,11 @@ impl<'a> Watch<'a> {
         scan * self.system.scan_ms as u64
     }
 
+    /// When a scan was that the executor counts from power-up.
+    pub(super) fn ms_since_power_up(&self, scan: i32) -> u64 {
+        self.ms(self.powered_up + u64::try_from(scan).unwrap_or(0))
+    }
+
     /// The time at which it looks.
     pub(super) fn now(&self) -> u64 {
         self.ms(self.at)
@@ -78,6 +105,29 @@ impl<'a> Watch<'a> {
     /// So many scans more, before the end of which it may have to look.
     fn passes_its_time(&self, scans: u64) -> bool {
         self.picture.is_none() && self.next_scan + scans > self.at
+    }
+
+    pub(super) fn is_input(&self, element: Element) -> bool {
+        match element {
+            Element::Port { robot, port, .. } => {
+                self.system.automaton_of(robot).device.ports[port].direction == Direction::Input
+            }
+            Element::Local { .. } | Element::Cell { .. } => false,
+        }
+    }
+
+    fn take_changes(&mut self, scan: u64, journal: &[Entry]) {
+        for entry in journal {
+            if let Entry::Changed { robot, what } = *entry {
+                let before = self.before_loss.remove(&what);
+                if before.is_none_or(|before| before != self.executor.element(what)) {
+                    self.last.insert(what, Change { scan, by: By::Machine(robot) });
+                }
+            }
+        }
+        for (what, _) in self.before_loss.drain() {
+            self.last.insert(what, Change { scan, by: By::Machine(self.system.owner(what)) });
+        }
     }
 
     fn look(&mut self, scan: u64) {
@@ -102,11 +152,7 @@ impl Controllers for Watch<'_> {
         });
         self.fault = stopped.or(self.fault.filter(|_| answer.fault));
         let journal = self.executor.take_journal();
-        for entry in &journal {
-            if let Entry::Changed { robot, what } = *entry {
-                self.last.insert(what, Change { scan, robot });
-            }
-        }
+        self.take_changes(scan, &journal);
         if self.picture.is_none() && scan == self.at {
             self.look(scan);
         } else if self.picture.is_some()
@@ -126,7 +172,26 @@ impl Controllers for Watch<'_> {
     }
 
     fn power_up(&mut self) {
+        let inputs = self.last.keys().copied().filter(|what| self.is_input(*what));
+        let inputs: HashMap<Element, Value> =
+            inputs.map(|what| (what, self.executor.element(what))).collect();
         self.executor.power_up();
+        let scan = self.next_scan;
+        self.powered_up = scan;
+        let journal = self.executor.take_journal();
+        for entry in &journal {
+            let Entry::Changed { what, .. } = *entry else { continue };
+            match inputs.get(&what) {
+                Some(value) => _ = self.before_loss.insert(what, *value),
+                None => _ = self.last.insert(what, Change { scan, by: By::LossOfPower }),
+            }
+        }
+        let ms = self.ms(scan);
+        if self.picture.is_some()
+            && let Some(later) = &mut self.later
+        {
+            later.lose_power(ms, &journal);
+        }
     }
 
     fn state(&self, machine: usize) -> usize {

@@ -1,6 +1,6 @@
 //! Who may write a cell, from the text of the types, the rule of the cell and its present value.
 
-use super::Watch;
+use super::watch::{By, Watch};
 use crate::ir::Element;
 use crate::ir::{Automaton, Expr, ExprKind, InterfaceId, Place, Rule, System, Value};
 use crate::spec::ast::Side;
@@ -60,7 +60,10 @@ impl Writers {
             writes.then_some(own).into_iter().collect()
         };
         let others = || self.others(system, interface, row, cell);
-        let last = |element: Element| watch.last.get(&element).map(|change| change.robot);
+        let last = |element: Element| match watch.last.get(&element)?.by {
+            By::Machine(robot) => Some(robot),
+            By::LossOfPower => None,
+        };
         let rules = &system.model.interface(interface).cells;
         let token = |sides: &[Side], cell: usize| {
             let element = Element::Cell { interface, row, cell, index };

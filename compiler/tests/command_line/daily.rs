@@ -159,3 +159,11 @@ fn notes_are_given_on_request_and_never_fail_a_check() {
     assert!(text.contains("for example with attached = false, done"), "{text}");
     assert!(!errors(&check(&[])).contains("N0101"));
 }
+
+#[test]
+fn a_graph_is_no_json() {
+    let layout = example("scenes/lifting_table.json");
+    let output = autogen(&folder("graph_json"), &["graph", &layout, "--format", "json"]);
+    assert_eq!(status(&output), 2);
+    assert!(errors(&output).contains("a graph is DOT") && output.stdout.is_empty(), "{}", errors(&output));
+}

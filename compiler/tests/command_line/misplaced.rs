@@ -143,3 +143,29 @@ fn a_misspelt_pose_is_where_it_is_written() {
     let none = Cell::new().layout(", \"pose\": [1.50, 0, 0, 90]", "");
     only(&none.told("no_pose", &[]), &["E0112", "\"column\":5", "add \\\"pose\\\": ... or \\\"at\\\": ..."]);
 }
+
+/// Obstacles alone: types without variants would be no program.
+#[test]
+fn a_line_without_a_machine_has_nothing_to_control() {
+    let folder = folder("misplaced_no_machine");
+    let alone = r#"{"name": "wall", "type": "box", "pose": [0, 0, 0], "box": [1, 1, 1]}"#;
+    for stationary in ["", alone] {
+        let layout = format!(r#"{{"robots": [], "stationary": [{stationary}]}}"#);
+        fs::write(folder.join("line.json"), layout).expect("a file");
+        let output = autogen(&folder, &["check", "line.json", "--format", "json"]);
+        assert_eq!(status(&output), 1, "{stationary}");
+        let told: Vec<String> =
+            json(&output)["diagnostics"].as_array().expect("a list").iter().map(Value::to_string).collect();
+        only(&told, &["E0512", "the layout has no machine", "line.json", "add one to"]);
+    }
+    let station = r#"{"robots": [], "stationary": [{"name": "bin", "type": "counter", "pose": [0, 0, 0]}]}"#;
+    fs::write(folder.join("line.json"), station.replacen('{', r#"{"specs": "counter.aut", "#, 1))
+        .expect("a file");
+    fs::write(
+        folder.join("counter.aut"),
+        "automaton Counter on bin { initial state Rest { when after 1 s -> Rest {} } }\n",
+    )
+    .expect("a file");
+    let output = autogen(&folder, &["check", "line.json"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+}

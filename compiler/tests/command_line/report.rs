@@ -70,6 +70,15 @@ fn a_report_stays_with_its_results() {
     assert_eq!(fs::read_to_string(&page).expect("a file"), "mine");
     assert_eq!(status(&run(&["--force"])), 0);
     assert_eq!(fs::read_to_string(&page).expect("a report"), text);
+
+    // One of an earlier run that was changed would be taken for one of this run.
+    fs::write(&page, format!("{text}<!-- mine -->")).expect("a file");
+    let refused = run(&["--no-report"]);
+    assert_eq!(status(&refused), 2);
+    assert!(json(&refused)["reason"].as_str().is_some_and(|reason| reason.contains("report.html")));
+    assert!(page.exists());
+    assert_eq!(status(&run(&["--no-report", "--force"])), 0);
+    assert!(!page.exists());
 }
 
 #[test]

@@ -449,3 +449,25 @@ fn means_differences_and_parts_of_a_goal_are_those_of_its_time() {
     assert_eq!(status(&output), 2);
     assert!(errors(&output).contains("--warm-up cuts orders, and these scenarios have none"));
 }
+
+/// What a compiler says has many lines, a row has one.
+#[cfg(unix)]
+#[test]
+fn controllers_that_cannot_be_compiled_are_a_reason_in_one_line() {
+    let folder = folder("sweep_without_controllers");
+    let cargo = folder.join("cargo");
+    put(&folder, "cargo", "#!/bin/sh\nprintf 'error: no such thing\\n\\n --> here\\n' >&2\nexit 1\n");
+    let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+    fs::set_permissions(&cargo, mode).expect("a file of one's own");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_autogen"))
+        .args(["sweep", &example("scenes/lifting_table.json"), "--format", "jsonl"])
+        .current_dir(&folder)
+        .env("XDG_CACHE_HOME", folder.join("cache"))
+        .env("CARGO", cargo)
+        .output()
+        .expect("autogen can be started");
+    assert_eq!(status(&output), 2, "{}", errors(&output));
+    let reason = json(&output)["reason"].as_str().expect("a text").to_string();
+    let said = "the controllers could not be compiled: error: no such thing (`commission` shows all of it)";
+    assert_eq!(reason, said);
+}

@@ -57,6 +57,25 @@ fn a_time_after_the_end_is_the_end() {
     assert!(text.starts_with("at 39.99 s\nthe run ends here: time limit reached\n"), "{text}");
 }
 
+#[test]
+fn only_a_run_that_ended_by_itself_has_ended() {
+    let layout = example("scenes/lifting_table.json");
+    let why = |at: &str, more: &[&str]| {
+        autogen(&folder("why_ended"), &[&["why", &layout, "--at", at][..], more].concat())
+    };
+    let ended = |at: &str| json(&why(at, &["--format", "json"]))["ended"].clone();
+    for at in ["3", "39.98"] {
+        assert_eq!(ended(at), Value::Null, "{at}");
+        assert!(!String::from_utf8_lossy(&why(at, &[]).stdout).contains("the run ends here"), "{at}");
+    }
+    for at in ["39.99", "40", "40.5"] {
+        assert_eq!(ended(at), "time limit reached", "{at}");
+        let text = String::from_utf8_lossy(&why(at, &[]).stdout).into_owned();
+        assert!(text.starts_with("at 39.99 s\nthe run ends here: time limit reached\n"), "{at}: {text}");
+    }
+    assert!(why("3", &["-q"]).stdout.is_empty(), "errors only");
+}
+
 /// What is said of a press whose door is open from 2 s on, and of a clerk who waits for it.
 fn of_press(name: &str, property: &str, more: &[&str]) -> Output {
     let folder = folder(name);

@@ -1,13 +1,14 @@
 //! Where two runs differ first. Both continue side by side, so that nothing has to be kept of either.
 
 use super::super::progress::Progress;
-use autogen::executor::{Entry, Executor};
-use autogen::ir::{Element, Group, Named, Scalar, System};
+use super::seen::{self, Seen};
+use autogen::executor::Executor;
+use autogen::ir::{Group, Named, System};
 use autogen::lower::Project;
-use runtime_sim::run::{Seen, Stepping, run as simulate};
+use runtime_sim::run::{Seen as SeenScan, Stepping, run as simulate};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
@@ -35,21 +36,24 @@ struct Changes {
     values: BTreeMap<String, String>,
 }
 
+/// Names that both lines have.
+pub struct Common {
+    pub machines: BTreeSet<String>,
+    pub values: BTreeSet<String>,
+}
+
 pub fn find(projects: [&Project; 2], progress: Progress) -> Result<Found, String> {
     let names = projects.map(|project| all(&project.system));
-    let sets = names.each_ref().map(|names| -> BTreeSet<&String> { names.keys().collect() });
-    let states = projects.map(|project| -> BTreeSet<String> {
-        project.system.instances.iter().map(|instance| format!("{}, in state", instance.name)).collect()
+    let values = names.each_ref().map(|names| -> BTreeSet<String> { names.keys().cloned().collect() });
+    let machines = projects.map(|project| -> BTreeSet<String> {
+        project.system.instances.iter().map(|instance| instance.name.clone()).collect()
     });
     let only = |own: usize, other: usize| -> Vec<String> {
-        let machines = states[own].difference(&states[other]).map(|name| name.replace(", in state", ""));
-        let values = sets[own].difference(&sets[other]).map(|name| name.to_string());
-        machines.chain(values).collect()
+        let machines = machines[own].difference(&machines[other]);
+        machines.chain(values[own].difference(&values[other])).cloned().collect()
     };
     let only = [only(0, 1), only(1, 0)];
-    let common: BTreeSet<String> = sets[0].intersection(&sets[1]).map(|name| name.to_string()).collect();
-    let machines: BTreeSet<String> = states[0].intersection(&states[1]).cloned().collect();
-    let common = common.union(&machines).cloned().collect::<BTreeSet<_>>();
+    let common = Common { machines: &machines[0] & &machines[1], values: &values[0] & &values[1] };
     thread::scope(|scope| {
         let (to_a, from_a) = sync_channel(AHEAD);
         let (to_b, from_b) = sync_channel(AHEAD);
@@ -97,35 +101,22 @@ fn both(a: &Changes, b: &Changes) -> First {
     First { scan: a.scan, at_ms: a.at_ms, values: values.filter(|(_, a, b)| a != b).collect() }
 }
 
-/// Names of states come first: `agv1, in state`.
 fn run(
     project: &Project,
     names: &BTreeMap<String, Named>,
-    common: &BTreeSet<String>,
+    common: &Common,
     to: SyncSender<Changes>,
     mut progress: Progress,
 ) -> Result<Value, String> {
-    let mut executor = Executor::new(&project.system);
-    executor.keep_journal();
+    let system = &project.system;
     let mut side = Side {
-        system: &project.system,
-        executor,
-        named: names
-            .iter()
-            .filter(|(name, _)| common.contains(*name))
-            .map(|(name, value)| (value.element, (name.as_str(), value.ty)))
-            .collect(),
-        machines: project
-            .system
-            .instances
-            .iter()
-            .map(|i| common.contains(&format!("{}, in state", i.name)))
-            .collect(),
+        system,
+        executor: Executor::new(system),
+        seen: Seen::new(system, names, common),
         next_scan: 0,
-        states: vec![usize::MAX; project.system.instances.len()],
         to: Some(to),
     };
-    let mut observe = |seen: &Seen| progress.show(seen.scan * u64::from(project.plant.scan_ms) / 1000);
+    let mut observe = |seen: &SeenScan| progress.show(seen.scan * u64::from(project.plant.scan_ms) / 1000);
     let report = simulate(&project.plant, &mut side, Stepping::Events, &mut observe)?;
     progress.end();
     serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is not JSON: {e}"))
@@ -134,38 +125,18 @@ fn run(
 struct Side<'a> {
     system: &'a System,
     executor: Executor<'a>,
-    named: HashMap<Element, (&'a str, Scalar)>,
-    machines: Vec<bool>,
+    seen: Seen<'a>,
     next_scan: u64,
-    states: Vec<usize>,
     /// None, once nobody asks any more.
     to: Option<SyncSender<Changes>>,
 }
 
 impl Side<'_> {
     fn tell(&mut self, scan: u64) {
-        let mut values = BTreeMap::new();
-        for entry in self.executor.take_journal() {
-            let Entry::Changed { what, .. } = entry else { continue };
-            if let Some((name, ty)) = self.named.get(&what) {
-                values.insert(name.to_string(), self.system.shown_value(*ty, self.executor.element(what)));
-            }
-        }
-        for (machine, before) in
-            self.states.iter_mut().enumerate().filter(|(machine, _)| self.machines[*machine])
-        {
-            let state = self.executor.state(machine);
-            if *before != state {
-                *before = state;
-                let name = format!("{}, in state", self.system.instances[machine].name);
-                values.insert(name, self.system.automaton_of(machine).states[state].name.clone());
-            }
-        }
+        let Some(to) = &self.to else { return };
+        let values = self.seen.changes(&self.executor);
         let at_ms = scan * self.system.scan_ms as u64;
-        if !values.is_empty()
-            && let Some(to) = &self.to
-            && to.send(Changes { scan, at_ms, values }).is_err()
-        {
+        if !values.is_empty() && to.send(Changes { scan, at_ms, values }).is_err() {
             self.to = None;
         }
     }
@@ -176,10 +147,7 @@ impl Controllers for Side<'_> {
         let scan = self.next_scan;
         self.next_scan += 1;
         let answer = self.executor.scan(system, inputs, outputs);
-        match self.to {
-            Some(_) => self.tell(scan),
-            None => drop(self.executor.take_journal()),
-        }
+        self.tell(scan);
         answer
     }
 
@@ -240,8 +208,7 @@ impl First {
 
     pub fn json(&self) -> Value {
         let values = self.values.iter().map(|(name, a, b)| {
-            let (machine, value) =
-                name.split_once(", in ").or_else(|| name.split_once('.')).unwrap_or((name, ""));
+            let (machine, value) = seen::parts(name);
             json!({ "machine": machine, "value": value, "first": a, "second": b })
         });
         json!({ "scan": self.scan, "at_s": self.at_ms as f64 / 1000.0, "values": values.collect::<Vec<_>>() })

@@ -42,6 +42,8 @@ pub enum Refusal {
     InTheWay(Vec<PathBuf>),
     /// Files that were read would be overwritten.
     Inputs(Vec<PathBuf>),
+    /// The folder has what this command has built from another layout.
+    OfAnotherLayout(PathBuf, String),
     Io(PathBuf, io::Error),
 }
 
@@ -91,6 +93,16 @@ impl Output {
         Some(Manifest::read(&self.folder).about.get("command")?.as_str()?.into())
     }
 
+    /// Refuses a folder that was built from a layout file of another name.
+    pub fn is_of_layout(&self, name: &str) -> Result<(), Refusal> {
+        let about = Manifest::read(&self.folder).about;
+        let was_read = about.get("inputs").and_then(Value::as_object).map(|inputs| inputs.contains_key(name));
+        match (was_read, self.last_command()) {
+            (Some(false), Some(command)) => Err(Refusal::OfAnotherLayout(self.folder.clone(), command)),
+            _ => Ok(()),
+        }
+    }
+
     /// Writes the files that all of `make` give, at the same time, and a manifest of them, with `about` first in it, and removes
     /// those of the last time that are no more. Results stay only where nothing else changes: they are those of other controllers.
     /// Returns the names of the files.
@@ -121,7 +133,8 @@ impl Output {
         new.replace(&after, &self.inputs, overwrite)
     }
 
-    /// Whether these may be written: a run may be long, and it is better to know before it.
+    /// Whether these of [`OF_A_RUN`] may be written, and the others removed: a run may be long, and it is better to know
+    /// before it.
     pub fn may_write_results(&self, names: &[&str], overwrite: Overwrite) -> Result<(), Refusal> {
         let before = Manifest::read(&self.folder);
         let found = obstacles(&self.folder, names.iter().copied());
@@ -129,9 +142,11 @@ impl Output {
             return Err(Refusal::InTheWay(found));
         }
         let mut foreign = Vec::new();
-        for name in names {
+        for name in OF_A_RUN {
             let present = present(&self.folder, name)?;
-            if present != Present::Nothing && !present.is(before.files.get(*name).map(String::as_str)) {
+            let last = before.files.get(name).map(String::as_str);
+            let concerns = names.contains(&name) || last.is_some();
+            if concerns && present != Present::Nothing && !present.is(last) {
                 foreign.push(self.folder.join(name));
             }
         }

@@ -5,7 +5,7 @@
 use super::manifest::{MANIFEST, Manifest, hash_of, hex};
 use super::present::{Present, obstacles, present};
 use super::transaction::{self, Change, create_parent, sync};
-use super::{Overwrite, Refusal, among};
+use super::{OF_A_RUN, Overwrite, Refusal, among};
 use crate::command::interrupt::Temporary;
 use autogen::backend::Sink;
 use autogen::parallel::STACK;
@@ -252,14 +252,21 @@ impl Staged {
         if let Some(refusal) = failed {
             return Err(refusal);
         }
+        for (name, hash) in before.files.iter().filter(|(name, _)| !after.files.contains_key(*name)) {
+            let there = present(&folder, name)?;
+            let is_own = there.is(Some(hash));
+            // One of a run that stays would be taken for one of what is in the folder now.
+            let is_changed = !is_own && there != Present::Nothing && OF_A_RUN.contains(&name.as_str());
+            if is_changed {
+                foreign.push(folder.join(name));
+            }
+            if is_own || is_changed {
+                changes.push(Change { name: name.clone(), existed: true, hash: None });
+            }
+        }
         if overwrite == Overwrite::Own && !foreign.is_empty() {
             foreign.sort();
             return Err(Refusal::NotOurs(foreign));
-        }
-        for (name, hash) in before.files.iter().filter(|(name, _)| !after.files.contains_key(*name)) {
-            if present(&folder, name)?.is(Some(hash)) {
-                changes.push(Change { name: name.clone(), existed: true, hash: None });
-            }
         }
         let read = among(inputs, changes.iter().map(|change| folder.join(&change.name)));
         if !read.is_empty() {

@@ -11,7 +11,7 @@ pub struct Outcome {
     /// In one line, why the run ended or why there was none.
     pub reason: String,
     pub orders_done: u64,
-    /// Number asked for; `None` if the scenario cannot be read.
+    /// Number asked for; `None` of a point that was refused, if it is not known or they have no end.
     pub orders: Option<u64>,
     /// `None` if no order was made, or all were cut.
     pub seconds_per_order: Option<f64>,
@@ -79,7 +79,7 @@ impl Outcome {
     pub fn figure(&self, asked: Asked) -> Option<f64> {
         match asked {
             Asked::Orders => self.seconds_per_order,
-            Asked::Items => self.simulated_s,
+            Asked::Items => self.simulated_s.filter(|_| self.items_asked.is_some()),
         }
         .filter(|_| self.finished)
     }

@@ -1,8 +1,7 @@
 //! The options `--report` and `--keep`: the page of a sweep, and those of some of its runs.
 
 use super::super::interrupt;
-use super::super::output::Overwrite;
-use super::super::pending::{Content, Pending};
+use super::super::pending::{self, Content, Foreign, Pending};
 use super::design::{Design, RunNumber};
 use super::plan::Plan;
 use super::point;
@@ -42,27 +41,34 @@ impl Request {
                 Keep::Rows(rows.collect::<Result<_, _>>()?)
             }
         };
-        Ok(Some(Self { file: Pending::new(path, Content::Report, Overwrite::Own)?, keep }))
+        let request = Self { file: Pending::new(path, Content::Report, Foreign::Stays)?, keep };
+        // A sweep may be long, and it is better to know before it.
+        for row in (1..=points).filter(|row| request.keeps(*row)) {
+            pending::check(&page_of(path, row), Content::Report, Foreign::Stays)?;
+        }
+        Ok(Some(request))
+    }
+
+    fn keeps(&self, row: usize) -> bool {
+        match &self.keep {
+            Keep::All => true,
+            Keep::Rows(rows) => rows.contains(&row),
+        }
     }
 
     /// Runs again what is to be kept, and writes all pages.
     pub fn write(self, plan: &Plan, rows: &[Value]) -> Result<(), String> {
-        let wanted = |row: &usize| match &self.keep {
-            Keep::All => true,
-            Keep::Rows(rows) => rows.contains(row),
-        };
         let folder = folder(self.file.path());
         let mut kept = BTreeMap::new();
-        for row in (1..=rows.len()).filter(wanted) {
+        for row in (1..=rows.len()).filter(|row| self.keeps(*row)) {
             // A point that was refused has its reason in the table.
             let Ok(page) = point::page(plan, RunNumber { point: row - 1, replication: 0 }) else { continue };
             fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-            let name = format!("row-{row}.html");
-            let file = Pending::new(&folder.join(&name), Content::Report, Overwrite::Own)?;
+            let file = Pending::new(&page_of(self.file.path(), row), Content::Report, Foreign::Stays)?;
             file.write(&page)?;
             let _writing = interrupt::writing();
             file.keep()?;
-            kept.insert(row, format!("{}/{name}", encoded(&folder)));
+            kept.insert(row, format!("{}/{}", encoded(&folder), name_of(row)));
         }
         self.file.write(&sweep::html(&names(&plan.design), rows, &kept))?;
         let _writing = interrupt::writing();
@@ -74,6 +80,14 @@ impl Request {
 fn folder(page: &Path) -> PathBuf {
     let stem = page.file_stem().map_or_else(Default::default, |stem| stem.to_string_lossy().into_owned());
     page.with_file_name(format!("{stem}-runs"))
+}
+
+fn name_of(row: usize) -> String {
+    format!("row-{row}.html")
+}
+
+fn page_of(page: &Path, row: usize) -> PathBuf {
+    folder(page).join(name_of(row))
 }
 
 /// The name of the folder as an address has it.

@@ -7,6 +7,7 @@ use super::super::load::{self, Failure};
 use super::super::options::SweepOptions;
 use super::axis::Axis;
 use super::design::{Asked, Design, Point};
+use super::distinct;
 use super::precision::{self, Precision};
 use super::warm_up::WarmUp;
 use autogen::backend::rust::parameters_text;
@@ -16,7 +17,6 @@ use autogen::lower::{Draft, Project, Setting, Texts};
 use autogen::source::{FileId, Sources};
 use runtime_sim::line::IoDelay;
 use runtime_sim::memory::Memory;
-use std::fmt::Display;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -70,15 +70,10 @@ impl Plan {
                 )));
             }
         }
-        for axis in &axes {
-            is_given_once(&format!("--set {}", axis.name), &axis.values)?;
-        }
-        is_given_once("--order", &options.order)?;
-        is_given_once("--io-delay", &options.io_delay)?;
         let files: Vec<PathBuf> = (options.layouts.iter())
             .map(|path| path.canonicalize().unwrap_or_else(|_| path.clone()))
             .collect();
-        if let Some(path) = twice(&files) {
+        if let Some(path) = distinct::twice(&files, PartialEq::eq) {
             let path = options.layouts[path].display();
             return Err(Refusal::Said(format!("{path}: this layout is named twice; name it once")));
         }
@@ -93,13 +88,20 @@ impl Plan {
             })?;
             delays.push(delay);
         }
+        for (number, axis) in axes.iter().enumerate() {
+            // They are read in the same way for all layouts.
+            let settings = lines.first().map_or(&[][..], |line: &Line| &line.settings[number]);
+            distinct::once(&format!("--set {}", axis.name), &axis.values, settings, distinct::same_setting)?;
+        }
+        distinct::once("--order", &options.order, &options.order, PartialEq::eq)?;
+        distinct::once("--io-delay", &options.io_delay, &delays, PartialEq::eq)?;
         if delays.is_empty() {
             delays.push(IoDelay::Fixed(0));
         }
         let precision = options.until_precision.as_deref().map(precision).transpose()?;
         let most = if precision.is_some() { precision::MOST } else { 1 };
         let replications = options.replications.map_or(most, NonZeroU32::get);
-        seeds_are_apart(&axes, replications)?;
+        distinct::seeds_are_apart(&axes, &lines, &delays, replications)?;
         let asked = asked(&lines);
         if asked == Asked::Items && options.warm_up.is_some() {
             return Err(Refusal::Said(
@@ -124,7 +126,7 @@ impl Plan {
 /// Items only if no layout has orders: else rows have one figure for all.
 fn asked(lines: &[Line]) -> Asked {
     let has_items = lines.iter().any(|line| line.draft.items().is_some());
-    let has_orders = lines.iter().any(|line| line.draft.orders().is_some());
+    let has_orders = lines.iter().any(|line| line.draft.orders().is_some_and(|orders| orders > 0));
     if has_items && !has_orders { Asked::Items } else { Asked::Orders }
 }
 
@@ -144,7 +146,7 @@ fn warm_up(text: &str) -> Result<WarmUp, Refusal> {
 /// Names of the layouts, or their paths if two have the same name.
 fn titles(lines: &[Line], paths: &[PathBuf]) -> Vec<String> {
     let titles: Vec<String> = lines.iter().map(|line| line.name.clone()).collect();
-    match twice(&titles) {
+    match distinct::twice(&titles, PartialEq::eq) {
         Some(_) => paths.iter().map(|path| path.display().to_string()).collect(),
         None => titles,
     }
@@ -155,34 +157,6 @@ pub struct Made {
     pub project: Project,
     /// The values of its controllers, as these read them.
     pub parameters: String,
-}
-
-/// Replications of a point take the seeds that follow its own. Were one of them that of another point, both would be
-/// the same run.
-fn seeds_are_apart(axes: &[Axis], replications: u32) -> Result<(), Refusal> {
-    let seeds = axes.iter().filter(|axis| axis.name == "supply.seed");
-    let mut seeds: Vec<u64> = seeds.flat_map(|axis| &axis.values).filter_map(|v| v.parse().ok()).collect();
-    seeds.sort_unstable();
-    match seeds.windows(2).find(|pair| pair[1] - pair[0] < u64::from(replications)) {
-        Some(pair) => Err(Refusal::Said(format!(
-            "--set supply.seed: {} and {} are less than {replications} apart, so that with {replications} replications \
-             both points would have some runs in common; take seeds that are farther apart, or no list of them",
-            pair[0], pair[1]
-        ))),
-        None => Ok(()),
-    }
-}
-
-/// Where the first stands that has stood before.
-fn twice<T: PartialEq>(list: &[T]) -> Option<usize> {
-    (1..list.len()).find(|i| list[..*i].contains(&list[*i]))
-}
-
-fn is_given_once<T: PartialEq + Display>(option: &str, values: &[T]) -> Result<(), Refusal> {
-    match twice(values) {
-        Some(i) => Err(Refusal::Said(format!("{option}: {} stands twice; give it once", values[i]))),
-        None => Ok(()),
-    }
 }
 
 impl Line {

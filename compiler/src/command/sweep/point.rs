@@ -33,11 +33,11 @@ pub fn outcome(plan: &Plan, number: RunNumber, notice: Notice) -> Outcome {
             outcome.status = Status::WrongInput;
         }
         Ok(Err(End::NoControllers(text))) => {
-            outcome.reason = text;
+            outcome.reason = beginning(&text);
             outcome.status = Status::WrongCommand;
         }
         Ok(Err(End::NoReport(text))) => {
-            outcome.reason = text;
+            outcome.reason = beginning(&text);
             outcome.status = Status::NotReached;
         }
         Err(_) => {
@@ -123,5 +123,14 @@ fn refusal(found: &[Diagnostic]) -> String {
     match found.len() {
         0 | 1 => first,
         n => format!("{first} (and {} more)", n - 1),
+    }
+}
+
+/// The beginning of a text, in a line: what a compiler says has many.
+fn beginning(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    match lines.as_slice() {
+        [] | [_] | [_, _] => lines.join(" "),
+        [first, second, ..] => format!("{first} {second} (`commission` shows all of it)"),
     }
 }
