@@ -3,6 +3,7 @@
 mod reserved;
 pub mod st;
 
+pub use reserved::is_reserved;
 use std::collections::BTreeSet;
 
 /// Keywords of Rust, reserved ones included.

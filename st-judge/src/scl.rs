@@ -3,10 +3,12 @@
 //! Written from the rules of SCL in TIA Portal, never from the emitter: names of a block are written `#name`, those of
 //! data blocks and blocks in quotes; a constant is a name of its block; a real number without a type may have 32 bits.
 
+mod literal;
 mod token;
 
 use crate::finding::{Finding, Span};
 use crate::structured::{self, Object};
+use literal::literal;
 use std::collections::BTreeMap;
 use token::{Kind, Token, tokens};
 
@@ -40,10 +42,14 @@ const STATEMENTS: [&str; 24] = [
     "CONTINUE",
 ];
 /// Of the language: names only in quotes. TIA Portal colours them as keywords or types.
-const WORDS: [&str; 40] = [
+const WORDS: [&str; 51] = [
     "ANY",
     "ARRAY",
     "BEGIN",
+    "BLOCK_DB",
+    "BLOCK_FB",
+    "BLOCK_FC",
+    "BLOCK_SDB",
     "BOOL",
     "BY",
     "BYTE",
@@ -54,10 +60,16 @@ const WORDS: [&str; 40] = [
     "COUNTER",
     "DATA_BLOCK",
     "DATE",
+    "DATE_AND_TIME",
     "DINT",
     "DO",
     "DWORD",
     "ELSE",
+    "END_CONST",
+    "END_DATA_BLOCK",
+    "END_LABEL",
+    "END_ORGANIZATION_BLOCK",
+    "END_REGION",
     "END_VAR",
     "EXIT",
     "FOR",
@@ -77,6 +89,7 @@ const WORDS: [&str; 40] = [
     "STRUCT",
     "TIME",
     "TIMER",
+    "TIME_OF_DAY",
     "TITLE",
     "TYPE",
     "VERSION",
@@ -296,10 +309,13 @@ impl<'a> Reader<'a> {
                 continue;
             }
             let token = self.take()?;
-            text += match token.kind {
-                Kind::Symbol => token.text,
-                _ => literal(token)?,
-            };
+            match token.kind {
+                Kind::Symbol if ["*", "/", "+"].contains(&token.text) => {
+                    return Err(wrong(token, "a start value is no expression"));
+                }
+                Kind::Symbol => text += token.text,
+                _ => text += &literal(token)?,
+            }
             is_first = token.text == ";";
             if is_first {
                 text.push('\n');
@@ -348,7 +364,7 @@ impl<'a> Reader<'a> {
                         ty += block
                     }
                     (Kind::Global, _) => return Err(wrong(token, "no block of this name")),
-                    _ if !initial.is_empty() => initial += literal(token)?,
+                    _ if !initial.is_empty() => initial += &literal(token)?,
                     (Kind::Word, word) if TYPES.contains(&word) => ty += word,
                     (Kind::Word, "ARRAY") => ty += "ARRAY",
                     (Kind::Word, "OF") => ty += " OF ",
@@ -406,6 +422,7 @@ impl<'a> Reader<'a> {
             let token = self.take()?;
             let before = self.next.checked_sub(2).map(|i| self.tokens[i]);
             let behind = |text: &str| before.is_some_and(|before| before.is(Kind::Symbol, text));
+            let mut number;
             let text = match token.kind {
                 Kind::Word if token.text == end => return Ok(body),
                 Kind::Local => match names.get(token.text) {
@@ -442,7 +459,14 @@ impl<'a> Reader<'a> {
                 {
                     token.text
                 }
-                Kind::Word => literal(token)?,
+                Kind::Word => {
+                    number = literal(token)?;
+                    // A product is one operand.
+                    if number.contains('*') {
+                        number = format!("({number})").into();
+                    }
+                    &number
+                }
                 Kind::Symbol => token.text,
                 Kind::Attribute => return Err(wrong(token, "no attribute stands here")),
             };
@@ -456,17 +480,6 @@ impl<'a> Reader<'a> {
                 body.push('\n');
             }
         }
-    }
-}
-
-/// A number or a truth without its type. A real number needs one: without it TIA Portal may take it as one of 32 bits.
-fn literal<'a>(token: Token<'a>) -> Result<&'a str, Finding> {
-    let text = token.text;
-    let is_whole = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
-    match text.strip_prefix("LREAL#") {
-        Some(real) if real.contains('.') => Ok(real),
-        None if ["TRUE", "FALSE", "-"].contains(&text) || is_whole(text) => Ok(text),
-        _ => Err(wrong(token, "no literal of 64 bits, and no name of this block")),
     }
 }
 
@@ -536,6 +549,7 @@ DATA_BLOCK "All_DB" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN "
             ("VERSION : 0.1 NON_RETAIN", "NON_RETAIN"),
             ("(* shared *)", "(* shared"),
             ("a[2] := 5", "d[2] := 5"),
+            ("a[2] := 5", "a[2] := 5 * 2"),
             ("LREAL#2.5", "2.5"),
             ("STRUCT \"timer\"", "STRUCT timer"),
         ] {

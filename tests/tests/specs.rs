@@ -44,8 +44,8 @@ fn expectations(text: &str) -> Vec<(usize, String, String, String)> {
     found
 }
 
-/// Told of long texts, and of a machine: `devices.rs`.
-const ELSEWHERE: [&str; 2] = ["E0211", "E0711"];
+/// Told of long texts, of what replaces the library, and of a machine: `replaced.rs`, `devices.rs`.
+const ELSEWHERE: [&str; 3] = ["E0211", "E0307", "E0711"];
 
 #[test]
 fn diagnostics_stand_where_they_are_expected() {

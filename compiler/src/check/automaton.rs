@@ -54,6 +54,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         broken: BTreeSet::new(),
         lacks_names: false,
         states: tree.states.iter().map(|s| s.name.value.clone()).collect(),
+        defined_below: Vec::new(),
         own_interface,
     };
     context.names(tree);
@@ -298,7 +299,8 @@ impl Context<'_, '_> {
 
     fn defines(&mut self, tree: &ast::Automaton) {
         let mut depths: Vec<usize> = Vec::new();
-        for define in &tree.defines {
+        for (number, define) in tree.defines.iter().enumerate() {
+            self.defined_below = tree.defines[number..].iter().map(|d| d.name.value.clone()).collect();
             let Some(value) = self.expr(&define.value, None) else {
                 self.broken.insert(define.name.value.clone());
                 continue;
@@ -334,6 +336,7 @@ impl Context<'_, '_> {
                 value,
             });
         }
+        self.defined_below.clear();
     }
 }
 

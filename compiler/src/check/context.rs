@@ -41,6 +41,8 @@ pub struct Context<'c, 'a> {
     pub(super) lacks_names: bool,
     /// States, as the text names them.
     pub(super) states: Vec<String>,
+    /// Definitions that have no meaning yet: the one at hand, and those below it.
+    pub(super) defined_below: Vec<String>,
     /// Own interface, if the automaton shows something that no declared interface has.
     pub(super) own_interface: Option<ir::InterfaceId>,
 }

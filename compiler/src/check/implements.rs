@@ -2,6 +2,7 @@
 
 use super::context::{Context, Symbol};
 use super::names::Space;
+use super::types::Computed;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{self, Extent, Scalar};
 use crate::spec::ast;
@@ -128,7 +129,7 @@ impl Context<'_, '_> {
         };
         let approach = match &tree.approach {
             None => 0.0,
-            Some(expr) => match self.checker.constant(Scalar::Real, expr)? {
+            Some(expr) => match self.checker.constant(Scalar::Real, expr, Computed::Never)? {
                 ir::Value::Real(height) if height >= 0.0 => height,
                 _ => {
                     self.report(

@@ -10,6 +10,7 @@ mod implements;
 pub mod names;
 mod path;
 mod property;
+mod replaced;
 mod retain;
 mod rule;
 mod sequence;
@@ -28,6 +29,7 @@ use crate::scenario::ANY;
 use crate::source::{FileId, Sources, Span};
 use crate::spec::ast;
 use names::{Names, Space};
+use replaced::Replaced;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -35,6 +37,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Checked {
     model: ir::Model,
+    lonely: Vec<Diagnostic>,
 }
 
 impl Checked {
@@ -44,6 +47,12 @@ impl Checked {
 
     pub fn into_model(self) -> ir::Model {
         self.model
+    }
+
+    /// Roles that nobody can have because a declaration of a later file has replaced those who could: an error if the
+    /// types with these roles are used.
+    pub fn lonely(&self) -> &[Diagnostic] {
+        &self.lonely
     }
 }
 
@@ -57,8 +66,9 @@ pub fn check(
 ) -> Result<Checked, Vec<Diagnostic>> {
     let mut checker = checked(sources, files, kinds, None);
     if checker.diagnostics.is_empty() && !checker.has_taken {
-        Ok(Checked { model: checker.model })
+        Ok(Checked { model: checker.model, lonely: checker.lonely })
     } else {
+        replaced::explain(sources, &checker.declarations.replaced, &mut checker.diagnostics);
         crate::diagnostic::sort(&mut checker.diagnostics);
         Err(checker.diagnostics)
     }
@@ -84,6 +94,7 @@ fn checked<'a>(
         model: empty_model(kinds.unwrap_or(&[ANY.into()])),
         lacks_kinds: kinds.is_none(),
         has_taken: false,
+        lonely: Vec::new(),
         broken: BTreeSet::new(),
         devices: Vec::new(),
         refused: Vec::new(),
@@ -126,6 +137,8 @@ struct Declarations {
     interfaces: Vec<ast::Interface>,
     automata: Vec<ast::Automaton>,
     devices: Vec<ast::Device>,
+    /// Those that do not count any more.
+    replaced: Vec<Replaced>,
 }
 
 fn declarations(files: &[(FileId, ast::File)], diagnostics: &mut Vec<Diagnostic>) -> Declarations {
@@ -158,15 +171,15 @@ fn declarations(files: &[(FileId, ast::File)], diagnostics: &mut Vec<Diagnostic>
             }
         }
         for tree in &tree.enums {
-            replace(&mut result, &tree.name.value);
+            replace(&mut result, &tree.name);
             result.enums.push(tree.clone());
         }
         for tree in &tree.interfaces {
-            replace(&mut result, &tree.name.value);
+            replace(&mut result, &tree.name);
             result.interfaces.push(tree.clone());
         }
         for tree in &tree.automata {
-            replace(&mut result, &tree.name.value);
+            replace(&mut result, &tree.name);
             result.automata.push(tree.clone());
         }
         for (index, device) in tree.devices.iter().enumerate() {
@@ -180,17 +193,27 @@ fn declarations(files: &[(FileId, ast::File)], diagnostics: &mut Vec<Diagnostic>
                     .help("rename or remove one of them"),
                 );
             }
-            result.devices.retain(|other| other.name.value != device.name.value);
+            let before = result.devices.iter().position(|other| other.name.value == device.name.value);
+            if let Some(before) = before.map(|before| result.devices.remove(before)) {
+                result.replaced.push(Replaced::new("device", &before.name, &device.name));
+            }
             result.devices.push(device.clone());
         }
     }
     result
 }
 
-fn replace(declarations: &mut Declarations, name: &str) {
-    declarations.enums.retain(|e| e.name.value != name);
-    declarations.interfaces.retain(|i| i.name.value != name);
-    declarations.automata.retain(|a| a.name.value != name);
+fn replace(declarations: &mut Declarations, name: &ast::Name) {
+    let Declarations { enums, interfaces, automata, replaced, .. } = declarations;
+    for before in enums.extract_if(.., |e| e.name.value == name.value) {
+        replaced.push(Replaced::new("enumeration", &before.name, name));
+    }
+    for before in interfaces.extract_if(.., |i| i.name.value == name.value) {
+        replaced.push(Replaced::new("interface", &before.name, name));
+    }
+    for before in automata.extract_if(.., |a| a.name.value == name.value) {
+        replaced.push(Replaced::automaton(&before, name));
+    }
 }
 
 struct Checker<'a> {
@@ -202,6 +225,7 @@ struct Checker<'a> {
     lacks_kinds: bool,
     /// A name was taken for a kind, so the model is not whole.
     has_taken: bool,
+    lonely: Vec<Diagnostic>,
     /// Members of interfaces whose declarations have errors; something stands for them in the model.
     broken: BTreeSet<(ir::InterfaceId, String)>,
     /// Devices by name, in the order of their declarations; none for one with errors.
@@ -453,33 +477,5 @@ impl Checker<'_> {
             self.report(diagnostic);
         }
         Rule::Token(members.iter().map(|m| side_of(m).unwrap_or(ast::Side::Owner)).collect())
-    }
-
-    /// A role needs somebody who can have it.
-    fn lonely_roles(&mut self) {
-        let trees = &self.declarations;
-        let is_read = |name: &str| {
-            trees
-                .automata
-                .iter()
-                .flat_map(|a| &a.roles)
-                .any(|r| r.interface.value == name || r.also.iter().any(|n| n.value == name))
-        };
-        let is_implemented =
-            |name: &str| trees.automata.iter().flat_map(|a| &a.implements).any(|i| i.interface.value == name);
-        let lonely: Vec<ast::Name> = (trees.interfaces.iter().map(|i| &i.name))
-            .filter(|name| is_read(&name.value) && !is_implemented(&name.value))
-            .cloned()
-            .collect();
-        for name in lonely {
-            self.report(
-                Diagnostic::new(
-                    "E0304",
-                    name.span,
-                    format!("no automaton has the interface `{}`, which a role asks for", name.value),
-                )
-                .help(format!("write `automaton ... is {}`", name.value)),
-            );
-        }
     }
 }

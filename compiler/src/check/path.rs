@@ -159,6 +159,12 @@ impl Context<'_, '_> {
                     "`{name}` is a state: write the next state after the guard, `when done -> {name} {{}}`"
                 )
             }
+            _ if self.defined_below.first().is_some_and(|own| own == name) => {
+                "a definition cannot use itself".into()
+            }
+            _ if self.defined_below.iter().any(|below| below == name) => {
+                format!("`{name}` is defined below: put its definition above this one")
+            }
             Some(near) if self.is_output(near) => format!(
                 "is `{near}` meant? It is an output of the device `{}`; an input is declared there, `in {name}: TYPE = PART.SIGNAL;`",
                 self.automaton.device.name

@@ -9,6 +9,14 @@ use crate::spec::ast::{self, ExprKind};
 /// Largest number of elements of an array.
 const LARGEST_ARRAY: i64 = 1024;
 
+/// Whether a value may be computed if it cannot be a constant.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Computed {
+    Never,
+    /// In the updates of `initial ->`, which may write it.
+    AtTheBeginning,
+}
+
 impl Checker<'_> {
     /// `None` has been reported.
     pub(super) fn resolve_type(&mut self, tree: &ast::Type) -> Option<ir::Type> {
@@ -140,7 +148,8 @@ impl Checker<'_> {
     ) -> Option<ir::ParameterSource> {
         let Some(expr) = default else { return Some(ir::ParameterSource::Layout(None)) };
         if !is_scenario_parts(expr) {
-            return self.constant(ty.scalar, expr).map(|value| ir::ParameterSource::Layout(Some(value)));
+            let value = self.constant(ty.scalar, expr, Computed::Never);
+            return value.map(|value| ir::ParameterSource::Layout(Some(value)));
         }
         if matches!(ty.scalar, Scalar::Int { .. }) && ty.extent == Extent::By(ir::KIND) {
             return Some(ir::ParameterSource::Scenario);
@@ -155,7 +164,7 @@ impl Checker<'_> {
     /// What a variable of this type holds at first.
     pub(super) fn initial(&mut self, ty: ir::Type, expr: Option<&ast::Expr>) -> Option<Value> {
         match expr {
-            Some(expr) => self.constant(ty.scalar, expr),
+            Some(expr) => self.constant(ty.scalar, expr, Computed::AtTheBeginning),
             None => Some(match ty.scalar {
                 Scalar::Bool => Value::Bool(false),
                 Scalar::Int { lo, hi } => Value::Int(0.clamp(lo, hi)),
@@ -167,7 +176,7 @@ impl Checker<'_> {
     }
 
     /// A constant of a type, as declarations and defaults need it.
-    pub(super) fn constant(&mut self, ty: Scalar, expr: &ast::Expr) -> Option<Value> {
+    pub(super) fn constant(&mut self, ty: Scalar, expr: &ast::Expr, computed: Computed) -> Option<Value> {
         let value = match (ty, &expr.kind) {
             (_, ExprKind::Error) => return None,
             (Scalar::Bool, ExprKind::Bool(b)) => Value::Bool(*b),
@@ -193,7 +202,7 @@ impl Checker<'_> {
                         Value::Int(ordinal as i32)
                     }
                     None if self.takes_for_kind(id) => return None,
-                    None => return self.not_constant(ty, expr),
+                    None => return self.not_constant(ty, expr, computed),
                 }
             }
             (Scalar::Point, ExprKind::Call(name, arguments))
@@ -201,24 +210,50 @@ impl Checker<'_> {
             {
                 match (number(&arguments[0]), number(&arguments[1]), number(&arguments[2])) {
                     (Some(x), Some(y), Some(z)) => Value::Point([x, y, z]),
-                    _ => return self.not_constant(ty, expr),
+                    _ => return self.not_constant(ty, expr, computed),
                 }
             }
-            _ => return self.not_constant(ty, expr),
+            _ => return self.not_constant(ty, expr, computed),
         };
         Some(value)
     }
 
-    fn not_constant(&mut self, ty: Scalar, expr: &ast::Expr) -> Option<Value> {
+    fn not_constant(&mut self, ty: Scalar, expr: &ast::Expr, computed: Computed) -> Option<Value> {
         let name = self.type_name(ty);
-        let help = match (ty, &expr.kind) {
-            (Scalar::Time, ExprKind::Int(_) | ExprKind::Real(_)) => super::expression::unit_help(expr),
-            _ => "write a literal value; compute it in the updates of `initial ->`".into(),
-        };
+        let mut help = self.constant_help(ty, expr);
+        let is_literal = matches!(
+            expr.kind,
+            ExprKind::Bool(_)
+                | ExprKind::Int(_)
+                | ExprKind::Real(_)
+                | ExprKind::Duration(_)
+                | ExprKind::List(_)
+        );
+        if computed == Computed::AtTheBeginning && !is_literal {
+            help += "; compute it in the updates of `initial ->`";
+        }
         self.report(
             Diagnostic::new("E0305", expr.span, format!("this is not a constant of type {name}")).help(help),
         );
         None
+    }
+
+    /// How a constant of a type is written.
+    fn constant_help(&self, ty: Scalar, expr: &ast::Expr) -> String {
+        match (ty, &expr.kind) {
+            (_, ExprKind::List(_)) => "write one value without brackets: all elements have it".into(),
+            (Scalar::Time, ExprKind::Int(_) | ExprKind::Real(_)) => super::expression::unit_help(expr),
+            (Scalar::Time, _) => "write a time, such as `3 s`".into(),
+            (Scalar::Bool, _) => "write `true` or `false`".into(),
+            (Scalar::Int { .. }, _) => "write a whole number".into(),
+            (Scalar::Real, _) => "write a number, such as `0.5`".into(),
+            (Scalar::Point, _) => "write three numbers, such as `point(0, 0.5, -1)`".into(),
+            (Scalar::Enum(id), _) => {
+                let ir::Enum { name, members, .. } = &self.model.enums[id.0];
+                format!("write a member of `{name}`: {}", members.join(", "))
+            }
+            (Scalar::Ref(_), _) => "remove the value: a reference has no constants".into(),
+        }
     }
 
     /// A type in the user's words.

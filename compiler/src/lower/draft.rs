@@ -146,6 +146,10 @@ impl Draft {
             self.diagnostics.extend(kinds::unknown(&used, &devices, &scenario.names_of_kinds()));
         }
         match check::check(sources, &used, Some(&scenario.names_of_kinds())) {
+            Ok(checked) if !checked.lonely().is_empty() => {
+                self.diagnostics.extend_from_slice(checked.lonely());
+                None
+            }
             Ok(checked) => {
                 let mut model = checked.into_model();
                 restart::add(&mut model);

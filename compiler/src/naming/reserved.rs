@@ -18,7 +18,7 @@ const WORDS: &str = "
     indexof initial_step insert int integral interface internal interval jmp jmpc jmpcn ld ldate
     ldate_and_time ldn ldt le left len limit lint ln log lower_bound lreal lt ltime ltime_of_day
     ltod lword main max method mid min mod move mul multime mux namespace ne new nil non_retain not
-    null of on or orn overlap override params persistent pid plc_prg pointer priority private
+    null of on or or_else orn overlap override params persistent pid plc_prg pointer priority private
     program property protected public pv r r1 r_edge r_trig ramp read_only read_write real ref ref_to
     reference repeat replace reset_ld resource ret retain retc retcn return right rol ror round rs
     rtc s s1 sel self sema set shl shr sin single sint sizeof sqrt sr st stat step stn string struct

@@ -52,7 +52,11 @@ impl Scope {
     pub fn take_all(&mut self, wanted: &str, suffixes: &[&str]) -> Vec<String> {
         let longest = LONGEST - suffixes.iter().map(|s| s.len()).max().unwrap_or(0);
         let mut stem = plain(wanted);
-        let mut reason = if stem == wanted { "" } else { "an underscore at an end or beside another one" };
+        let mut reason = match wanted.trim_start_matches('_').starts_with(|c: char| c.is_ascii_alphabetic()) {
+            true if stem == wanted => "",
+            true => "an underscore at an end or beside another one",
+            false => "no letter at the beginning",
+        };
         while let Some(at) = keyword_inside(&stem) {
             stem.insert_str(at, "_v");
             reason = "a keyword within the name";
@@ -128,9 +132,11 @@ fn of_specification(wanted: &str, suffix: &str) -> String {
     }
 }
 
-/// Without underscores at the ends or beside each other.
+/// Without underscores at the ends or beside each other; with `n` in front if no letter is left there.
 fn plain(name: &str) -> String {
-    name.split('_').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("_")
+    let parts: Vec<&str> = name.split('_').filter(|part| !part.is_empty()).collect();
+    let is_begun = parts.first().is_some_and(|part| part.starts_with(|c: char| c.is_ascii_alphabetic()));
+    (if is_begun { None } else { Some("n") }).into_iter().chain(parts).collect::<Vec<_>>().join("_")
 }
 
 fn cut(name: &str, longest: usize) -> String {
@@ -165,6 +171,10 @@ mod tests {
         let given: Vec<_> =
             ["blend_Program", "bend_function_end_action", "initial_steps"].map(|n| scope.take(n)).into();
         assert_eq!(given, ["blend_v_Program", "bend_v_function_end_v_action", "initial_v_steps"]);
+        let given: Vec<_> = ["_24v_ok", "_1st", "_ok_", "___", "__"].map(|n| scope.take(n)).into();
+        assert_eq!(given, ["n_24v_ok", "n_1st", "ok", "n", "n_2"]);
+        assert_eq!(scope.take_all("_1", &["_x", "_y"]), ["n_1_x", "n_1_y"]);
+        assert_eq!(scope.renamed().last().map(|r| r.reason), Some("no letter at the beginning"));
     }
 
     #[test]

@@ -348,11 +348,21 @@ impl Parser {
 
     /// Of several errors at one token only the first is reported.
     fn report(&mut self, diagnostic: Diagnostic) {
-        if self.error_at != Some(self.position) {
+        let is_first = self.error_at != Some(self.position);
+        let diagnostic = self.misplaced_description().unwrap_or(diagnostic);
+        if is_first {
             collect(&mut self.diagnostics, diagnostic);
         }
         self.error_at = Some(self.position);
         self.errors += 1;
+    }
+
+    /// What is wrong if a description stands here, where something else is expected. It is passed over.
+    fn misplaced_description(&mut self) -> Option<Diagnostic> {
+        let span = self.span();
+        let message = "a `///` comment describes what follows it, and cannot stand here";
+        let help = "begin it with `//`, or put it above the declaration";
+        (!self.doc().is_empty()).then(|| Diagnostic::new("E0204", span, message).help(help))
     }
 
     /// Skips to one of these signs, past whole parentheses; not past a brace or a `;`.

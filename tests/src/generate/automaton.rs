@@ -61,7 +61,6 @@ fn text(lot: &mut Lot, world: &World, name: &str, device: &Arc<Device>, own: &[&
         caution: Caution::Risky,
         stage: Stage::Elsewhere,
         faults: 0,
-        bound: 0,
     };
     let is = match own {
         [] => String::new(),

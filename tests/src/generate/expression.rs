@@ -19,7 +19,7 @@ impl Writer<'_> {
             };
         }
         let next = depth - 1;
-        match self.lot.below(26) {
+        match self.lot.below(28) {
             0 | 1 => format!("({} and {})", self.boolean(next), self.boolean(next)),
             2 | 3 => format!("({} or {})", self.boolean(next), self.boolean(next)),
             4 => format!("not ({})", self.boolean(next)),
@@ -53,6 +53,7 @@ impl Writer<'_> {
             20 | 21 => format!("{} {} {}", self.real(next), self.order(), self.real(next)),
             22 | 23 => format!("{} {} {}", self.time(next).0, self.order(), self.time(next).0),
             24 => self.equality(),
+            25 | 26 => format!("{} {} {}", self.counted(next).0, self.order(), self.lot.between(0, 3)),
             _ => self.boolean(0),
         }
     }
@@ -226,7 +227,10 @@ impl Writer<'_> {
                     return ("1".into(), 1, 1);
                 }
                 let array = (*self.lot.pick(&simple)).clone();
-                let value = self.value(&array.ty, 0);
+                let value = match array.ty {
+                    Ty::Int(..) if depth > 0 && self.lot.one_in(2) => self.counted(depth - 1).0,
+                    _ => self.value(&array.ty, 0),
+                };
                 (format!("count({}, {value})", array.name), 0, self.world.size(&array.extent) as i64)
             }
             _ => (self.quantified("count", depth), 0, 65_535),

@@ -40,14 +40,21 @@ pub struct Writer<'a> {
     pub stage: Stage,
     /// Something written in this transition may fault.
     pub faults: usize,
-    /// Variables so far.
-    pub bound: usize,
 }
 
+/// Names of variables. They are few, so that definitions, guards and updates share them; some are names that generated
+/// texts have for variables of their own.
+const VARIABLES: [&str; 12] =
+    ["element", "element", "element2", "j", "j", "number", "row", "best", "key", "holds", "found", "Element"];
+
 impl Writer<'_> {
+    /// A name that no variable in scope has.
     pub fn new_variable(&mut self) -> String {
-        self.bound += 1;
-        format!("v{}", self.bound)
+        let is_free = |name: &str| self.variables.iter().all(|(known, _)| known != name);
+        let names = VARIABLES.iter().map(|name| name.to_string());
+        let further = (0..=self.variables.len()).map(|number| format!("v{number}"));
+        let free: Vec<String> = names.chain(further).filter(|name| is_free(name)).collect();
+        self.lot.pick(&free).clone()
     }
 
     /// A text that reads a value whose type fits, and its type.

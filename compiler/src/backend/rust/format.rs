@@ -58,12 +58,29 @@ fn with_imports(text: &str, is_used: impl Fn(&str) -> bool, importable: &Importa
     (format!("{}\n{}", head.join("\n"), imports.join("\n")), rest.join("\n"))
 }
 
-/// All names of code, without what is in comments and texts. A text has no escapes.
+/// The names with which paths begin, without what is in comments and texts. A text has no escapes.
 fn names(text: &str) -> impl Iterator<Item = &str> {
     let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
-    let code = code.flat_map(|line| line.split('"').step_by(2));
-    let words = code.flat_map(|part| part.split(|c: char| !c.is_ascii_alphanumeric() && c != '_'));
-    words.filter(|word| word.starts_with(|c: char| !c.is_ascii_digit()))
+    code.flat_map(|line| line.split('"').step_by(2)).flat_map(beginnings)
+}
+
+/// Of code on one line: neither the names of fields nor what stands behind `::`.
+fn beginnings(code: &str) -> Vec<&str> {
+    let is_of_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let mut found = Vec::new();
+    let mut rest = code;
+    while let Some(start) = rest.find(is_of_word) {
+        let before = &code[..code.len() - rest.len() + start];
+        let length = rest[start..].find(|c| !is_of_word(c)).unwrap_or(rest.len() - start);
+        let (word, behind) = rest[start..].split_at(length);
+        let is_of_field = before.ends_with('.') && !before.ends_with("..");
+        let names_field = behind.starts_with(':') && !behind.starts_with("::");
+        if !is_of_field && !names_field && !before.ends_with("::") {
+            found.push(word);
+        }
+        rest = behind;
+    }
+    found
 }
 
 /// Lays out a file that is complete.
@@ -178,7 +195,7 @@ mod tests {
     fn imports_are_those_of_the_code() {
         let importable =
             [("crate::types".to_string(), vec!["Array".to_string(), "Point".into(), "Rows".into()])];
-        let text = "//! A module.\n\n/// A `Rows`.\npub const A: Point = made(\"Array\");\n";
+        let text = "//! A module.\n\n/// A `Rows`.\npub const A: Point = made(\"Array\", Shape::Rows, B { Array: 3 });\n";
         let wanted = "//! A module.\n\nuse crate::types::Point;\n\n/// A `Rows`.\n";
         let found = laid_out(text, &importable);
         assert!(found.starts_with(wanted), "{found}");

@@ -381,12 +381,13 @@ fn automaton_names(
     }
 }
 
-/// Variables of one name never meet within a transition, so they share the identifier. Those of a `define` too,
-/// if it is computed before the loops of guards only; others are computed while a transition's are in use.
+/// Variables of one name never meet within a transition, so they share the identifier. Those of a `define` too, if it is
+/// computed before the loops of guards only; others are computed while a transition's are in use. A point is computed
+/// where it is read.
 fn variables(source: &Automaton, scope: &mut Scope) -> Vec<String> {
     let mut owners = vec![0; source.variables.len()];
     for (i, define) in source.defines.iter().enumerate() {
-        if !walk::is_for_guards_only(source, i) {
+        if define.ty == Scalar::Point || !walk::is_for_guards_only(source, i) {
             own(&define.value, i + 1, &mut owners);
         }
     }

@@ -43,7 +43,7 @@ fn real(value: f64, text: &mut String) {
 }
 
 /// A number that is too great or too small for a literal of old tools, as a product that is exactly it.
-fn factors(value: f64) -> Option<(f64, f64)> {
+fn product(value: f64) -> Option<(f64, f64)> {
     /// 2 to the power of 100.
     const POWER: f64 = 1_267_650_600_228_229_401_496_703_205_376.0;
     let size = value.abs();
@@ -70,6 +70,14 @@ impl Dialect {
         text
     }
 
+    /// SCL has literals of 64 bits, and data blocks take no expressions.
+    fn factors(self, value: f64) -> Option<(f64, f64)> {
+        match self {
+            Dialect::Portable | Dialect::Codesys => product(value),
+            Dialect::Siemens => None,
+        }
+    }
+
     /// Adds an expression to a text.
     pub fn write(self, ex: &Ex, text: &mut String) {
         match ex {
@@ -77,7 +85,7 @@ impl Dialect {
             Ex::Bool(false) => *text += "FALSE",
             Ex::Int(i32::MIN) => *text += "-2147483647 - 1",
             Ex::Int(i) => _ = write!(text, "{i}"),
-            Ex::Real(r) => match factors(*r) {
+            Ex::Real(r) => match self.factors(*r) {
                 Some((rest, power)) => self.write(&code::binary("*", Ex::Real(rest), Ex::Real(power)), text),
                 None => {
                     if self == Dialect::Siemens {
@@ -241,7 +249,7 @@ impl Dialect {
         self.write(ex, text);
         let is_simple = match ex {
             Ex::Not(_) | Ex::Minus(_) | Ex::Binary(..) | Ex::Chain(..) => false,
-            Ex::Real(r) if factors(*r).is_some() => false,
+            Ex::Real(r) if self.factors(*r).is_some() => false,
             Ex::Int(_) | Ex::Real(_) => !text[begin..].starts_with('-'),
             _ => true,
         };

@@ -15,6 +15,7 @@ use super::structured::Structure;
 use super::text::{made_from, render};
 use super::values::Elements;
 use crate::backend::{Part, Sink, Text, part};
+use crate::naming::is_reserved;
 use askama::Template;
 use quotes::{is_word, push_quoted, quoted};
 use std::borrow::Cow;
@@ -219,7 +220,7 @@ fn block(unit: &Unit, made_from: &str, is_global: &impl Fn(&str) -> bool, to: &m
         writeln!(f, "    {} : \"{}\";{}", quoted(&i.name), i.block, i.about())
     };
     let constant = |(name, member): (&String, &Member), f: &mut Formatter| {
-        writeln!(f, "    {name} : DINT := {};", member.value)
+        writeln!(f, "    {} : DINT := {};", of_constant(name), member.value)
     };
     let given: BTreeSet<&str> =
         unit.inputs.iter().chain(&unit.references).map(|variable| variable.name.as_str()).collect();
@@ -289,7 +290,15 @@ impl Constants {
     /// The same member with the name of its constant, or as a number.
     fn member(&self, member: &Member) -> Member {
         let name = Self::name(member).filter(|name| self.names.contains_key(name));
-        Member { qualified: name.map(|name| format!("#{name}")), ..member.clone() }
+        Member { qualified: name.map(|name| format!("#{}", of_constant(&name))), ..member.clone() }
+    }
+}
+
+/// The name of a constant. The type and the member together may be a word of SCL or of the standard, as `Time_Of_Day`.
+fn of_constant(name: &str) -> String {
+    match is_reserved(name) {
+        true => format!("\"{name}\""),
+        false => quoted(name),
     }
 }
 

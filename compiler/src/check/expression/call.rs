@@ -5,9 +5,10 @@ use super::{binary, constant};
 use crate::check::context::{Context, Symbol};
 use crate::check::path::Path;
 use crate::diagnostic::Diagnostic;
-use crate::ir::{self, Domain, Expr, ExprKind, Extent, Place, Scalar, Value};
+use crate::ir::{self, Domain, Expr, ExprKind, Extent, Place, Scalar, Value, VariableId};
 use crate::source::Span;
 use crate::spec::ast;
+use std::collections::BTreeSet;
 
 impl Context<'_, '_> {
     pub(super) fn call(&mut self, name: &ast::Name, arguments: &[ast::Expr], span: Span) -> Option<Expr> {
@@ -125,7 +126,8 @@ impl Context<'_, '_> {
                 (Domain::Range(whole(0), whole(last)), Scalar::Int { lo: 0, hi: last }, n)
             }
         };
-        let variable = self.new_variable("element", scalar);
+        let name = self.hidden_name("element", &[place.parts(), vec![&value]].concat());
+        let variable = self.new_variable(&name, scalar);
         let index = Some(Box::new(Expr { ty: scalar, kind: ExprKind::Variable(variable) }));
         match &mut place {
             Place::Local { index: i, .. }
@@ -139,4 +141,27 @@ impl Context<'_, '_> {
         let kind = ExprKind::Count { variable, domain: Box::new(domain), body };
         Some(Expr { ty: Scalar::Int { lo: 0, hi: size as i32 }, kind })
     }
+
+    /// A name that no variable has around these expressions or within them: controllers give variables of one name one
+    /// identifier, because those of a specification never meet.
+    fn hidden_name(&self, wanted: &str, within: &[&Expr]) -> String {
+        let mut met: BTreeSet<VariableId> = self.variables.iter().map(|(_, id, _)| *id).collect();
+        within.iter().for_each(|expr| quantified(expr, &mut met));
+        let is_met = |name: &str| met.iter().any(|id| self.automaton.variables[id.0].name == name);
+        let numbered = (2..).map(|number| format!("{wanted}{number}"));
+        let mut names = std::iter::once(wanted.to_string()).chain(numbered);
+        names.find(|name| !is_met(name)).unwrap_or_default()
+    }
+}
+
+/// The variables that go over something within an expression.
+fn quantified(expr: &Expr, found: &mut BTreeSet<VariableId>) {
+    if let ExprKind::Exists { variable, .. }
+    | ExprKind::Forall { variable, .. }
+    | ExprKind::Count { variable, .. }
+    | ExprKind::Sum { variable, .. } = expr.kind
+    {
+        found.insert(variable);
+    }
+    expr.parts().into_iter().for_each(|part| quantified(part, found));
 }

@@ -12,7 +12,7 @@ use autogen::diagnostic::{Diagnostic, sort};
 use autogen::executor::Executor;
 use autogen::lower::{Project, compile};
 use autogen::source::{Sources, Spanned};
-use autogen::testing::{self, Body, Emitted, Engine, Played, Setup, StructuredText, Test, Watched};
+use autogen::testing::{self, Body, Emitted, Engine, Failure, Played, Setup, StructuredText, Test, Watched};
 use runtime_sim::run::{Stepping, run as simulate};
 use std::path::{Path, PathBuf};
 
@@ -163,13 +163,30 @@ fn one(
             let mut controllers = library.controllers(plant, &parameters_text(system))?;
             on(line, test, Engine::Other(&mut controllers), Stepping::Events)
         }
-        TestEngine::St => {
-            let emitted = Emitted::of(&st::files(system, &line.sources));
-            let mut text = StructuredText::new(system, &emitted)?;
-            let outcome = on(line, test, Engine::Other(&mut text), Stepping::EveryScan)?;
-            text.ended.map_or(Ok(outcome), Err)
-        }
+        TestEngine::St => on_structured_text(line, test, &Emitted::of(&st::files(system, &line.sources))),
     }
+}
+
+/// A text that is refused, or stops within a scan, has failed the test: others say something nevertheless.
+fn on_structured_text(
+    line: &Compiled,
+    test: &Test,
+    emitted: &Emitted,
+) -> Result<Result<Outcome, Vec<Diagnostic>>, String> {
+    let failed = |found: String| {
+        let expected = vec!["the Structured Text executes every scan to its end".to_string()];
+        let (place, found) = (test.title.span, found.lines().map(String::from).collect());
+        Outcome::Failed(vec![Failure { place, at_ms: None, events: Vec::new(), expected, found }])
+    };
+    let mut text = match StructuredText::new(&line.project.system, emitted) {
+        Ok(text) => text,
+        Err(why) => return Ok(Ok(failed(why))),
+    };
+    let outcome = on(line, test, Engine::Other(&mut text), Stepping::EveryScan)?;
+    Ok(match text.ended {
+        Some(why) => outcome.map(|_| failed(why)),
+        None => outcome,
+    })
 }
 
 fn on(
@@ -205,4 +222,48 @@ fn on(
 
 fn notice(options: &TestOptions) -> Notice {
     if options.quiet { Notice::None } else { Notice::Compiling }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TESTS: &str = r#"
+        layout "line.json";
+        test "of a machine" of m1 { 0 s: -> S; 10 ms: -> T; }
+    "#;
+    const SPECS: &str =
+        "automaton Alpha on bin { initial -> S {} state S { when true -> T {} } final state T; }";
+    const LAYOUT: &str =
+        r#"{"specs": "a.aut", "robots": [{"name": "m1", "type": "alpha", "pose": [0, 0, 0]}]}"#;
+
+    #[test]
+    fn a_text_that_stops_has_failed_the_test() {
+        let folder = std::env::temp_dir().join(format!("autogen-text-stops-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        for (name, text) in [("a.aut", SPECS), ("line.json", LAYOUT), ("a.test", TESTS)] {
+            std::fs::write(folder.join(name), text).expect("a file");
+        }
+        let options =
+            TestOptions { paths: Vec::new(), on: Vec::new(), specs: Vec::new(), junit: None, quiet: true };
+        let id = Sources::default().add("a.test", TESTS);
+        let tests = testing::read(id, TESTS).expect("tests");
+        let mut compiled = Vec::new();
+        let test = &tests.tests[0];
+        assert!(line(&options, &folder, &tests.set, test, &mut compiled).is_ok());
+        std::fs::remove_dir_all(folder).expect("a folder");
+        let line = &compiled[0];
+        let right = Emitted::of(&st::files(&line.project.system, &line.sources));
+        let outcome = |emitted: &Emitted| on_structured_text(line, test, emitted).expect("an engine").ok();
+        assert!(matches!(outcome(&right), Some(Outcome::Passed)));
+        for (text, why) in [
+            ("WHILE elapsed >= 0 DO elapsed := 0; END_WHILE; CASE state OF", "EndlessLoop"),
+            ("CASE unknown OF", "unknown"),
+        ] {
+            let wrong = Emitted::flat(right.main.replacen("CASE state OF", text, 1), right.names.clone());
+            assert_ne!(wrong.main, right.main);
+            let Some(Outcome::Failed(failures)) = outcome(&wrong) else { panic!("{text} has not failed") };
+            assert!(failures[0].found.concat().contains(why), "{:?}", failures[0].found);
+        }
+    }
 }
