@@ -217,9 +217,9 @@ impl Writer<'_> {
     }
 
     fn counted(&mut self, depth: usize) -> Whole {
-        match self.lot.below(3) {
+        match self.lot.below(5) {
             0 => (format!("count({})", self.lot.pick(&self.roles).0), 0, 65_535),
-            1 => {
+            1..4 => {
                 let arrays = self.arrays();
                 let simple: Vec<_> =
                     arrays.iter().filter(|n| !matches!(n.ty, Ty::Point | Ty::Ref(_))).collect();
@@ -227,9 +227,11 @@ impl Writer<'_> {
                     return ("1".into(), 1, 1);
                 }
                 let array = (*self.lot.pick(&simple)).clone();
-                let value = match array.ty {
-                    Ty::Int(..) if depth > 0 && self.lot.one_in(2) => self.counted(depth - 1).0,
-                    _ => self.value(&array.ty, 0),
+                let bound = self.variables.iter().rev().find(|(_, ty)| matches!(ty, Ty::Int(..)));
+                let value = match (&array.ty, bound.cloned()) {
+                    (Ty::Int(..), Some((variable, _))) if self.lot.one_in(2) => variable,
+                    (Ty::Int(..), _) if depth > 0 && self.lot.one_in(2) => self.counted(depth - 1).0,
+                    (ty, _) => self.value(ty, 0),
                 };
                 (format!("count({}, {value})", array.name), 0, self.world.size(&array.extent) as i64)
             }
