@@ -1,6 +1,6 @@
 //! Inputs of many shapes that grow where an algorithm or a memory could grow with their square: each is answered
 //! in bounded time and memory, whatever the verdict is. `AUTOGEN_CAMPAIGN=full` takes files of nearly 10 MB; with
-//! a release build that is at most 2 s and 500 MB for each.
+//! a release build that is at most 2 s and 500 MB for each, one after another (`-- --test-threads 1`).
 
 #[path = "shapes/automata.rs"]
 mod automata;
@@ -83,14 +83,30 @@ fn run(command: &str, arguments: &[String], kilobytes: usize, longest: Duration)
 
 #[test]
 #[cfg(target_os = "linux")]
-fn every_shape_is_answered() {
+fn every_shape_of_a_layout_is_answered() {
+    is_answered("layouts", layouts::ALL);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn every_shape_of_automata_is_answered() {
+    is_answered("automata", automata::ALL);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn every_shape_of_a_scenario_is_answered() {
+    is_answered("scenarios", scenarios::ALL);
+}
+
+#[cfg(target_os = "linux")]
+fn is_answered(group: &str, makers: &[fn(usize) -> Shape]) {
     // Below the limits of types, below those of layouts, and above all.
     let sizes: &[usize] = if is_full() { &[30_000, 1_100_000, 9_900_000] } else { &[30_000, 300_000] };
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("shapes");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("shapes").join(group);
     let _ = fs::remove_dir_all(&folder);
     let mut bad = Vec::new();
-    let makers = layouts::ALL.iter().chain(automata::ALL).chain(scenarios::ALL);
-    for (make, bytes) in makers.flat_map(|make| sizes.iter().map(move |bytes| (make, *bytes))) {
+    for (make, bytes) in makers.iter().flat_map(|make| sizes.iter().map(move |bytes| (make, *bytes))) {
         let shape = make(bytes);
         let arguments = write(&folder.join(shape.name), &shape);
         let output = folder.join(shape.name).join("out").display().to_string();
