@@ -596,7 +596,6 @@ fn a_zone_sees_items_by_their_lengths_along_the_conveyor() {
             out run: bool = bed.run;
         }
         automaton Eye on eye {
-            local seen: int 0..10 := 0;
             initial -> Runs { run := true; }
             state Runs { when sees[box] -> Sees {} }
             state Sees { when not sees[box] -> Stopped { run := false; } }

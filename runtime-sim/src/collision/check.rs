@@ -306,10 +306,8 @@ impl CollisionCheck {
     }
 
     fn leave(&mut self, item: usize, plant: &Plant) {
-        let place = self.items.get_mut(&item).and_then(|tracked| tracked.place.take());
-        let Some((index, body)) = place else { return };
-        self.expect(index, body);
         let Some(tracked) = self.items.get_mut(&item) else { return };
+        let Some((index, body)) = tracked.place.take() else { return };
         let group = &mut self.groups[index];
         if let Some(turn) = group.turn(body, plant) {
             tracked.turn = turn;
@@ -328,6 +326,7 @@ impl CollisionCheck {
             tracked.turn =
                 if is_level { libm::atan2(along.y, along.x) } else { libm::atan2(-left.x, left.y) };
         }
+        self.expect(index, body);
     }
 
     fn come(&mut self, item: usize, to: Carrier, plant: &Plant) {

@@ -105,7 +105,8 @@ pub struct Gripping {
     loses_at_ms: Option<u64>,
 }
 
-/// The item that the arm picks as number `pick`, from 1, falls so long after it was attached, or with fingers, after that was reported.
+/// The item that the arm picks as number `pick`, from 1, falls so long after it was attached, or with fingers, after that
+/// was reported.
 #[derive(Clone, Copy, Debug)]
 pub struct Slip {
     pub pick: u32,

@@ -157,18 +157,13 @@ impl Working {
     }
 
     fn abandon(&mut self, now_ms: u64) {
-        for part in &self.commanded {
-            if let Some(part) = &mut self.parts[*part] {
-                part.abandon(now_ms);
-            }
-        }
+        self.each_commanded(|part| part.abandon(now_ms));
     }
 
-    fn lose_command(&mut self, now_ms: u64) {
-        self.begin_phase();
+    fn each_commanded(&mut self, work: impl Fn(&mut dyn Running)) {
         for part in &self.commanded {
             if let Some(part) = &mut self.parts[*part] {
-                part.lose_command(now_ms);
+                work(part.as_mut());
             }
         }
     }
@@ -199,7 +194,7 @@ impl Working {
         match head.accept(outputs, shared.next_ms()) {
             Asked::Nothing => {}
             Asked::Refused => self.abandon(shared.now_ms),
-            Asked::Withdrawn => self.lose_command(shared.now_ms),
+            Asked::Withdrawn => self.each_commanded(|part| part.lose_command(shared.now_ms)),
             Asked::Start(command) => self.begin(command, before, outputs, shared),
         }
         if let Some(head) = &mut self.head {

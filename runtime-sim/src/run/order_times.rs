@@ -11,7 +11,7 @@ pub struct OrderTimes {
     pub made: Option<(u64, usize)>,
 }
 
-/// Takes note of events, which may come in several pieces, in the order of the line's orders.
+/// Takes note of events that follow those of earlier calls. `times` are those of all orders of the line, in their order.
 pub fn note(times: &mut [OrderTimes], events: &[Event]) {
     for event in events {
         let Event::Order { scan, machine, order, change } = *event else { continue };
