@@ -173,7 +173,17 @@ impl Report {
         }
     }
 
-    /// One JSON object; the hash as sixteen hexadecimal digits.
+    /// The state in which the automaton of this machine is at the end; empty if there is none.
+    pub fn state(&self, machine: &str) -> &str {
+        self.machines.iter().find(|report| report.name == machine).map_or("", |report| &report.state)
+    }
+
+    /// Sixteen hexadecimal digits.
+    pub fn trace_hash_text(&self) -> String {
+        format!("{:016x}", self.trace_hash)
+    }
+
+    /// One JSON object.
     pub fn to_json(&self) -> String {
         Json::object(|json| {
             json.put_truth("finished", self.finished);
@@ -234,7 +244,7 @@ impl Report {
                 json.put_text("place", &item.place);
                 json.put_text("carrier", &item.carrier);
             });
-            json.put_text("trace_hash", &format!("{:016x}", self.trace_hash));
+            json.put_text("trace_hash", &self.trace_hash_text());
             json.put_list("collisions", &self.collisions, |json, contact| {
                 json.put_real("time_s", Some(contact.time_s));
                 json.put_reals("place", &[contact.place.x, contact.place.y, contact.place.z]);

@@ -5,19 +5,20 @@ use super::build::{self, Built};
 use super::contact;
 use super::controllers::{self, Notice};
 use super::dropped;
-use super::fault;
 use super::io_trace::IoTrace;
 use super::options::{CommissionOptions, Format};
 use super::output::{self, OF_A_RUN, Output};
 use super::pending::{Content, Pending};
 use super::progress::Progress;
 use super::read;
+use super::results::results;
 use super::trajectories::Request;
 use super::why;
 use crate::Status;
 use autogen::backend::rust::parameters_text;
 use autogen::backend::{Files, Sink, report as page};
 use runtime_sim::line::{Goal, IoDelay};
+use runtime_sim::report::Report;
 use runtime_sim::run::{Recorded, Seen, Stepping, record, run as simulate};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -86,9 +87,8 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     let names = if options.no_report { &OF_A_RUN[..1] } else { &OF_A_RUN[..] };
     output.may_write_results(names, overwrite).map_err(refused)?;
 
-    let (mut report, recorded) = report(options, &built, &built_files, delay.clone(), files)?;
-    fault::name(&mut report, &built.project.system, &built.sources);
-    contact::name_reasons(&mut report, &built.project.may_touch);
+    let (report, recorded) = report(options, &built, &built_files, delay.clone(), files)?;
+    let mut report = results(&report, &built.project, &built.sources)?;
     if let Some(waits) = why::at_the_end(&built.project, delay, &report)? {
         report["waits"] = json!(waits);
     }
@@ -154,7 +154,7 @@ fn report(
     built_files: &Files,
     delay: IoDelay,
     files: Requested,
-) -> Result<(Value, Option<Recorded>), String> {
+) -> Result<(Report, Option<Recorded>), String> {
     let input = &options.build.input;
     let is_quiet = input.quiet || input.format != Format::Text;
     let notice = if is_quiet { Notice::None } else { Notice::Compiling };
@@ -200,8 +200,6 @@ fn report(
         hashes.write(&hash_list)?;
         hashes.keep()?;
     }
-    let report =
-        serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is not JSON: {e}"))?;
     Ok((report, recorded))
 }
 

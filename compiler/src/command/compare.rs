@@ -7,7 +7,8 @@ mod table;
 use super::options::{CompareOptions, Format};
 use super::output::RESULTS;
 use super::progress::Progress;
-use super::{contact, fault, load, print, read};
+use super::results::results;
+use super::{load, print, read};
 use crate::Status;
 use autogen::lower::{Project, compile};
 use autogen::source::Sources;
@@ -80,11 +81,12 @@ fn layouts(options: &CompareOptions) -> Result<Compared, Status> {
     let (b, of_b) = project(options, &options.second)?;
     let found = first::find([&a, &b], Progress::new(is_shown))
         .map_err(|why| print::unusable(&options.input(&options.first), &why))?;
-    let mut reports = found.reports;
-    for (report, (project, sources)) in reports.iter_mut().zip([(&a, &of_a), (&b, &of_b)]) {
-        fault::name(report, &project.system, sources);
-        contact::name_reasons(report, &project.may_touch);
-    }
+    let [report_a, report_b] = &found.reports;
+    let bug = |text: String| {
+        complain!("autogen: {text}");
+        Status::Bug
+    };
+    let reports = [results(report_a, &a, &of_a).map_err(bug)?, results(report_b, &b, &of_b).map_err(bug)?];
     Ok(Compared { reports, traces: Traces::Values { first: found.first, only: found.only } })
 }
 

@@ -46,6 +46,7 @@ pub mod pending;
 pub mod print;
 pub mod progress;
 pub mod read;
+pub mod results;
 pub mod schema;
 pub mod sweep;
 pub mod test;

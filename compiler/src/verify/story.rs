@@ -144,14 +144,9 @@ impl Teller<'_> {
         format!("{}: {} ({})", self.name(skipped.instance), property.text, self.place(property.place))
     }
 
-    /// Why a run ended: a fault as `commission` tells it.
+    /// Why a run ended, as `commission` tells it.
     pub fn reason(&self, report: &Report) -> String {
-        let told = report.fault.as_ref().and_then(|(code, robot)| {
-            let machine = report.machines.iter().find(|machine| machine.name == *robot)?;
-            let code = u64::try_from(*code).ok()?;
-            fault::reason(&self.project.system, self.sources, code, robot, &machine.state)
-        });
-        told.unwrap_or_else(|| report.reason.clone())
+        fault::reason_of_run(report, &self.project.system, self.sources)
     }
 
     fn part(&self, machine: usize, part: usize) -> &str {

@@ -5,6 +5,7 @@ use super::seen::{self, Seen};
 use autogen::executor::Executor;
 use autogen::ir::{Group, Named, System};
 use autogen::lower::Project;
+use runtime_sim::report::Report;
 use runtime_sim::run::{Seen as SeenScan, Stepping, run as simulate};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 use serde_json::{Value, json};
@@ -24,7 +25,7 @@ pub struct First {
 }
 
 pub struct Found {
-    pub reports: [Value; 2],
+    pub reports: [Report; 2],
     pub first: Option<First>,
     pub only: [Vec<String>; 2],
 }
@@ -62,7 +63,7 @@ pub fn find(projects: [&Project; 2], progress: Progress) -> Result<Found, String
         let a = scope.spawn(move || run(projects[0], names_a, common, to_a, progress));
         let b = scope.spawn(move || run(projects[1], names_b, common, to_b, Progress::new(false)));
         let first = difference(from_a, from_b);
-        let joined = |run: thread::ScopedJoinHandle<'_, Result<Value, String>>| {
+        let joined = |run: thread::ScopedJoinHandle<'_, Result<Report, String>>| {
             run.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         };
         Ok(Found { reports: [joined(a)?, joined(b)?], first, only })
@@ -107,7 +108,7 @@ fn run(
     common: &Common,
     to: SyncSender<Changes>,
     mut progress: Progress,
-) -> Result<Value, String> {
+) -> Result<Report, String> {
     let system = &project.system;
     let mut side = Side {
         system,
@@ -119,7 +120,7 @@ fn run(
     let mut observe = |seen: &SeenScan| progress.show(seen.scan * u64::from(project.plant.scan_ms) / 1000);
     let report = simulate(&project.plant, &mut side, Stepping::Events, &mut observe)?;
     progress.end();
-    serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is not JSON: {e}"))
+    Ok(report)
 }
 
 struct Side<'a> {

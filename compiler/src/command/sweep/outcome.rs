@@ -3,6 +3,7 @@
 use super::design::{Asked, Design, RunNumber};
 use super::warm_up::{WarmUp, seconds_per_order};
 use crate::Status;
+use runtime_sim::report::Report;
 use serde_json::{Map, Value, json};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -49,25 +50,25 @@ impl Outcome {
         }
     }
 
-    /// Takes over what the simulation reports.
-    pub fn reported(&mut self, report: &Value, warm_up: Option<WarmUp>) {
-        self.finished = report["finished"] == true;
-        self.reason = report["reason"].as_str().unwrap_or("").into();
-        self.orders_done = report["orders_done"].as_u64().unwrap_or(0);
-        self.orders = report["orders"].as_u64();
-        self.seconds_per_order = report["seconds_per_order"].as_f64();
-        self.items = report["items_collected"].as_u64().unwrap_or(0);
-        self.items_asked = report["items_asked"].as_u64();
+    /// Takes over what the simulation reports, and why it ended.
+    pub fn reported(&mut self, report: &Report, reason: String, warm_up: Option<WarmUp>) {
+        self.finished = report.finished;
+        self.reason = reason;
+        self.orders_done = report.orders_done as u64;
+        self.orders = Some(report.orders as u64);
+        self.seconds_per_order = report.seconds_per_order;
+        let [items, items_asked] = report.collected.map_or([None; 2], |both| both.map(Some));
+        self.items = items.unwrap_or(0);
+        self.items_asked = items_asked;
         if let Some(warm_up) = warm_up {
-            let times = report["order_times"].as_array().into_iter().flatten();
-            let mut made: Vec<f64> = times.filter_map(|times| times["made_s"].as_f64()).collect();
+            let mut made: Vec<f64> = report.order_times.iter().filter_map(|times| times.made_s).collect();
             made.sort_by(f64::total_cmp);
             let cut = warm_up.cut(&made);
             self.cut_orders = cut as u64;
             self.seconds_per_order = seconds_per_order(&made, cut);
         }
-        self.simulated_s = report["simulated_s"].as_f64();
-        self.trace_hash = report["trace_hash"].as_str().map(String::from);
+        self.simulated_s = Some(report.simulated_s);
+        self.trace_hash = Some(report.trace_hash_text());
         self.status = match self.finished {
             true => Status::Done,
             false if self.reason.starts_with("bug: ") => Status::Bug,

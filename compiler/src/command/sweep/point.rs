@@ -1,22 +1,19 @@
 //! One run of a point: its values made a line, and the line run.
 
-use super::super::contact;
 use super::super::controllers::{Controllers, Notice};
-use super::super::fault;
 use super::super::print;
+use super::super::results::results;
 use super::design::{Point, RunNumber};
 use super::outcome::Outcome;
 use super::plan::{Made, Plan};
 use crate::Status;
 use autogen::backend::report;
 use autogen::diagnostic::Diagnostic;
-use autogen::ir::System;
-use autogen::source::Sources;
+use autogen::fault::reason_of_run;
 use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::memory::Memory;
 use runtime_sim::report::Report;
 use runtime_sim::run::{Seen, Stepping, record, run_again};
-use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
@@ -26,7 +23,7 @@ pub fn outcome(plan: &Plan, number: RunNumber, notice: Notice) -> Outcome {
     let line = &plan.lines[point.layout];
     let mut outcome = Outcome::new(line.draft.orders(), line.draft.items());
     match catch_unwind(AssertUnwindSafe(|| run(plan, &point, number.replication, notice))) {
-        Ok(Ok(report)) => outcome.reported(&report, plan.design.warm_up),
+        Ok(Ok((report, reason))) => outcome.reported(&report, reason, plan.design.warm_up),
         Ok(Err(End::Refused(found))) => {
             outcome.reason = refusal(&found);
             outcome.diagnostics = print::diagnostics_json(&line.sources, &found);
@@ -65,8 +62,7 @@ pub fn page(plan: &Plan, number: RunNumber) -> Result<String, String> {
         let ignore = &mut |_: &Seen| {};
         let recorded =
             record(&plant, &mut controllers, Stepping::Events, &watched, ignore).map_err(End::NoReport)?;
-        let mut results = results(&recorded.report, &project.system, &line.shown)?;
-        contact::name_reasons(&mut results, &project.may_touch);
+        let results = results(&recorded.report, project, &line.shown).map_err(End::NoReport)?;
         Ok(report::html(project, &line.shown, &plant, &recorded, &results))
     }));
     match made {
@@ -101,20 +97,15 @@ fn ready(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result
     Ok(Ready { made, plant, controllers })
 }
 
-fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<Value, End> {
+/// The report of a run, and why it ended.
+fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<(Report, String), End> {
     let line = &plan.lines[point.layout];
     let Ready { made, plant, mut controllers } = ready(plan, point, replication, notice)?;
     let simulate =
         |memory: &mut Memory| run_again(&plant, &mut controllers, Stepping::Events, memory, &mut |_| {});
     let report = line.remembering(simulate).map_err(End::NoReport)?;
-    results(&report, &made.project.system, &line.shown)
-}
-
-fn results(report: &Report, system: &System, sources: &Sources) -> Result<Value, End> {
-    let mut results = serde_json::from_str(&report.to_json())
-        .map_err(|e| End::NoReport(format!("the report is not JSON: {e}")))?;
-    fault::name(&mut results, system, sources);
-    Ok(results)
+    let reason = reason_of_run(&report, &made.project.system, &line.shown);
+    Ok((report, reason))
 }
 
 /// All diagnostics in a line.

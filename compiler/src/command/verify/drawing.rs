@@ -1,14 +1,14 @@
 //! A counterexample as a page: the run that shows it, or else its steps.
 
 use super::report::Shown;
-use crate::command::{contact, fault};
+use crate::command::results::results;
 use autogen::backend::report::{self, story};
 use autogen::executor::Executor;
 use autogen::lower::Project;
 use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
 use runtime_sim::run::{Stepping, record};
-use serde_json::{Value, json};
+use serde_json::json;
 
 pub fn page(project: &Project, teller: &Teller, shown: &Shown) -> Result<String, String> {
     let (replay, seconds) = match &shown.replay {
@@ -26,10 +26,7 @@ pub fn page(project: &Project, teller: &Teller, shown: &Shown) -> Result<String,
     let mut executor = Executor::new(&project.system);
     let watched = report::watched(&project.system);
     let recorded = record(&replay.line, &mut executor, Stepping::Events, &watched, &mut |_| {})?;
-    let mut results: Value = serde_json::from_str(&recorded.report.to_json())
-        .map_err(|e| format!("the report is not JSON: {e}"))?;
-    fault::name(&mut results, &project.system, teller.sources);
-    contact::name_reasons(&mut results, &project.may_touch);
+    let mut results = results(&recorded.report, project, teller.sources)?;
     results["violation"] = json!({ "at_s": seconds, "text": teller.title(shown.violation) });
     Ok(report::html(project, teller.sources, &replay.line, &recorded, &results))
 }
