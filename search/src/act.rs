@@ -132,6 +132,18 @@ impl Scan<'_> {
         shown
     }
 
+    /// Where a vehicle is: under way at its start, in the middle or at its goal, as [`Self::at_stop`] has it.
+    pub(crate) fn position(&mut self, machine: usize) -> Point {
+        let stop = self.at_stop(machine);
+        let Some(route) = &self.model.machines[machine].route else { return [0.0; 3] };
+        if let Ok(stop) = usize::try_from(stop) {
+            return route.stops[stop];
+        }
+        self.ask_start(machine);
+        let [at, goal] = [route.at, route.goal].map(|var| self.values.point(var.load(self.bytes)));
+        [0, 1, 2].map(|axis| (at[axis] + goal[axis]) / 2.0)
+    }
+
     /// What is read in the scan of a command was shown before it.
     fn keep_shown(&mut self, machine: usize) {
         let Machine { route, lane, .. } = &self.model.machines[machine];
@@ -179,15 +191,17 @@ impl Scan<'_> {
 
     /// The answer to a command, once it is of no use.
     pub(crate) fn forget_answer(&mut self, machine: usize, plant: &Machine) {
+        let Some(head) = &plant.head else { return };
+        if head.status.load(self.bytes) == status::UNDER_WAY {
+            return;
+        }
         let program = &self.model.instances[machine];
-        let state = program.state.load(self.bytes) as usize;
-        if let Some(head) = plant.head.as_ref().filter(|_| program.states[state].is_answer_dead)
-            && head.status.load(self.bytes) != status::UNDER_WAY
-        {
+        let state = &program.states[program.state.load(self.bytes) as usize];
+        if state.is_answer_dead {
             head.status.store(self.bytes, status::NONE);
-            if let Some(port) = head.error {
-                port.store(self.bytes, 0);
-            }
+        }
+        if let Some(port) = head.error.filter(|_| state.is_error_dead) {
+            port.store(self.bytes, 0);
         }
     }
 

@@ -195,6 +195,7 @@ impl Scan<'_> {
                 }
                 self.values.point(number)
             }
+            PointValue::Position(machine) => self.position(*machine),
             PointValue::Element(vars, index) => {
                 let index = self.int(index) as usize;
                 let number = self.load(vars[index]);

@@ -8,6 +8,7 @@ use crate::store::Store;
 use crate::successor::{Expander, Part, Successor};
 use crate::unread::Needed;
 use crate::violation::Violation;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -30,6 +31,8 @@ pub(crate) struct Expanded {
     pub restless: Vec<u64>,
     /// What has been found to be hardly meant: each thing once.
     remarked: Vec<Violation>,
+    /// Instances with states that they have where a scan ends in a stop or a violation.
+    entered: BTreeSet<(usize, usize)>,
 }
 
 /// What follows one state.
@@ -71,6 +74,11 @@ pub(crate) enum Step {
     Needs(Needed),
     /// What is hardly meant.
     Remarked(Box<(Violation, Vec<Event>)>),
+    /// The scan of an instance ended in this state, and nothing follows.
+    Entered {
+        instance: usize,
+        state: usize,
+    },
 }
 
 impl Expanded {
@@ -83,12 +91,13 @@ impl Expanded {
             codes: Vec::new(),
             restless: Vec::new(),
             remarked: Vec::new(),
+            entered: BTreeSet::new(),
         }
     }
 
     /// Nothing is known any more but what is the first state; the memory is kept.
     fn begin_anew(&mut self, first: usize) {
-        let Self { first: old, states, steps, unknown, codes, restless, remarked } = self;
+        let Self { first: old, states, steps, unknown, codes, restless, remarked, entered } = self;
         *old = first;
         states.clear();
         steps.clear();
@@ -96,6 +105,7 @@ impl Expanded {
         codes.clear();
         restless.clear();
         remarked.clear();
+        entered.clear();
     }
 
     /// Bytes of memory that it takes.
@@ -128,7 +138,7 @@ impl Expanded {
         restless: u64,
         postponed: Option<&[u64]>,
     ) {
-        let Self { states, steps, unknown, codes, restless: of_unknown, remarked, .. } = self;
+        let Self { states, steps, unknown, codes, restless: of_unknown, remarked, entered, .. } = self;
         if postponed.is_some_and(|postponed| postponed[state] == LEFT_OUT) {
             states.push(After {
                 end: steps.len(),
@@ -145,8 +155,17 @@ impl Expanded {
         let before = store.state(state);
         let begin = steps.len();
         let (beside, mut other) = (store.coded(state, &before), Vec::new());
+        let model = expander.model;
         let mut emit = |successor: Successor| {
             after.transitions += 1;
+            if successor.result.is_err() {
+                for (instance, program) in model.instances.iter().enumerate() {
+                    let state = program.state.load(successor.state) as usize;
+                    if entered.insert((instance, state)) {
+                        steps.push(Step::Entered { instance, state });
+                    }
+                }
+            }
             let acting = if postponed.is_some() { machines_of(successor.events) } else { 0 };
             for remark in successor.remarked {
                 if !remarked.contains(remark) {

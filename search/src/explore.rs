@@ -22,7 +22,7 @@ use crate::story::{self, Execution};
 use crate::successor::{Expander, Part};
 use crate::unread::Needed;
 use crate::violation::Violation;
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 use std::mem::discriminant;
 use std::ops::Range;
 use std::time::{Duration, Instant};
@@ -80,6 +80,8 @@ struct Search<'a> {
     known: HashSet<Violation>,
     /// Of each kind the first.
     remarked: Vec<Found>,
+    /// Instances with states that they have where a scan ends in a stop or a violation.
+    entered: BTreeSet<(usize, usize)>,
     /// What is forgotten and has to be known, and the states where that turned out.
     needed: Vec<(Needed, usize)>,
     /// How many violations were found before that.
@@ -123,6 +125,7 @@ impl<'a> Search<'a> {
             found: Vec::new(),
             known: HashSet::new(),
             remarked: Vec::new(),
+            entered: BTreeSet::new(),
             needed: Vec::new(),
             certain: 0,
             again: 0,
@@ -282,6 +285,9 @@ impl<'a> Search<'a> {
                     self.needed.push((*needed, from));
                 }
                 Step::Remarked(found) => self.remark(from, found),
+                Step::Entered { instance, state } => {
+                    self.entered.insert((*instance, *state));
+                }
             }
         }
     }
@@ -413,7 +419,16 @@ fn attempt(
     let end = cut.unwrap_or(End::Complete);
     search.measure();
     let Search {
-        begin, mut first, store, mut edges, mut representatives, found, remarked, mut covered, ..
+        begin,
+        mut first,
+        store,
+        mut edges,
+        mut representatives,
+        found,
+        remarked,
+        mut entered,
+        mut covered,
+        ..
     } = search;
     let mut violations: Vec<(Violation, Execution)> =
         found.into_iter().map(|found| found.told(&store, &mut first)).collect();
@@ -468,7 +483,7 @@ fn attempt(
         covered.stopped = (0..store.len()).filter(|state| model.any_stands(&store.state(*state))).count();
     }
     covered.time = begin.elapsed();
-    let entered = representatives.map_or_else(Vec::new, |all| all.entered.into_iter().collect());
+    entered.extend(representatives.into_iter().flat_map(|all| all.entered));
     let (values, unread) = (first.values, model.unread.clone());
     let outcome = Outcome {
         covered,
@@ -480,7 +495,7 @@ fn attempt(
         reached: store,
         values,
         unread,
-        entered,
+        entered: entered.into_iter().collect(),
     };
     match is_decided {
         true => Ok(outcome),

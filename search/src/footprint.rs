@@ -169,11 +169,7 @@ impl<'a> Finder<'a> {
                 inputs.iter().for_each(|input| self.input(*input));
                 self.int(index);
             }
-            Int::AtStop(machine) => {
-                let machine = &self.model.machines[*machine];
-                commanded(machine).into_iter().for_each(|var| self.read(var));
-                machine.route.iter().filter_map(|route| route.shown).for_each(|shown| self.write(shown));
-            }
+            Int::AtStop(machine) => self.shown_stop(*machine),
             Int::After(after) => {
                 let Instance { times_come, elapsed, .. } = &self.model.instances[after.instance];
                 times_come.iter().for_each(|times| self.read(*times));
@@ -222,10 +218,17 @@ impl<'a> Finder<'a> {
         }
     }
 
+    fn shown_stop(&mut self, machine: usize) {
+        let machine = &self.model.machines[machine];
+        commanded(machine).into_iter().for_each(|var| self.read(var));
+        machine.route.iter().filter_map(|route| route.shown).for_each(|shown| self.write(shown));
+    }
+
     fn point(&mut self, expr: &PointValue) {
         match expr {
             PointValue::Constant(_) => {}
             PointValue::Load(var) => self.read(*var),
+            PointValue::Position(machine) => self.shown_stop(*machine),
             PointValue::Element(vars, index) => self.element(vars, index),
             PointValue::Table(_, index) => self.int(index),
             PointValue::Make(parts) => parts.iter().for_each(|a| self.real(a)),

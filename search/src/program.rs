@@ -64,6 +64,8 @@ pub enum Real {
 pub enum PointValue {
     Constant(Point),
     Load(Var),
+    /// Where a vehicle is shown to be.
+    Position(usize),
     Element(Arc<[Var]>, Box<Int>),
     Table(Arc<[Point]>, Box<Int>),
     Make(Box<[Real; 3]>),
@@ -221,8 +223,10 @@ pub struct State {
     pub dead: Vec<(Var, i32)>,
     /// What a sensor tells over a conveyor at rest, and nobody reads here before it moves.
     pub unread: Vec<Unread>,
-    /// The answer to the last command is of no use here.
+    /// Whether the last command has ended, and how, is of no use here.
     pub is_answer_dead: bool,
+    /// So is the port `error`.
+    pub is_error_dead: bool,
 }
 
 /// What the state holds of an input, one of [`crate::plant::sight`], instead of what was told.

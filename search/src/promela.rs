@@ -5,7 +5,7 @@ use crate::event;
 use crate::model::Model;
 use crate::plant::{Action, Faults, Machine, motion, sight, status};
 use crate::program::{
-    Argument, Clause, Command, Domain, Int, Operator, PointValue, Target, Transition, Unread, Update,
+    Argument, Clause, Command, Domain, Int, Operator, PointValue, State, Target, Transition, Unread, Update,
 };
 use crate::value::{Values, Var};
 use std::collections::HashMap;
@@ -141,18 +141,20 @@ impl Printer<'_> {
     fn forget(&mut self, machine: usize) {
         let Some(head) = &self.model.machines[machine].head else { return };
         let program = &self.model.instances[machine];
-        let dead = program.states.iter().enumerate().filter(|(_, state)| state.is_answer_dead);
-        let state = self.name(program.state);
-        let states: Vec<String> = dead.map(|(number, _)| format!("{state} == {number}")).collect();
-        if !states.is_empty() {
-            let answer = self.name(head.status);
-            let error = head.error.map_or(String::new(), |port| format!("; {} = 0", self.name(port)));
+        let (answer, state) = (self.name(head.status), self.name(program.state));
+        let dead = |is_dead: fn(&State) -> bool| {
+            let states = program.states.iter().enumerate().filter(|(_, state)| is_dead(state));
+            states.map(|(number, _)| format!("{state} == {number}")).collect::<Vec<_>>().join(" || ")
+        };
+        let mut forgotten =
+            vec![(dead(|state| state.is_answer_dead), format!("{answer} = {}", status::NONE))];
+        if let Some(port) = head.error {
+            forgotten.push((dead(|state| state.is_error_dead), format!("{} = 0", self.name(port))));
+        }
+        // An answer that was forgotten is not under way either.
+        for (states, forget) in forgotten.into_iter().filter(|(states, _)| !states.is_empty()) {
             let under_way = status::UNDER_WAY;
-            let states = states.join(" || ");
-            self.line(format!(
-                "if :: ({answer} != {under_way} && ({states})) -> {answer} = {}{error} :: else fi;",
-                status::NONE
-            ));
+            self.line(format!("if :: ({answer} != {under_way} && ({states})) -> {forget} :: else fi;"));
         }
     }
 

@@ -63,6 +63,51 @@ fn promises_that_are_kept_and_promises_that_are_broken() {
     }
 }
 
+/// A state of a machine that a counterexample shows is not one that no sequence leads to.
+#[test]
+fn the_states_in_which_a_counterexample_ends_are_entered() {
+    for name in names() {
+        let outcome = line(&name).compile();
+        let project = outcome.project.as_ref().expect("a right line");
+        let searched = model(project, &Asked::with(Faults::All)).expect("a line that can be searched");
+        let found = explore(&searched.model, &BOUNDS, &mut |_| true);
+        for (_, execution) in &found.violations {
+            let Some(last) = execution.scans.last() else { continue };
+            for (instance, program) in searched.model.instances.iter().enumerate() {
+                let state = |bytes: &[u8]| program.state.load(bytes) as usize;
+                let end = state(&last.after);
+                let mut reached = (0..found.reached.len()).map(|number| state(&found.reached.state(number)));
+                let is_entered =
+                    found.entered.contains(&(instance, end)) || reached.any(|state| state == end);
+                assert!(is_entered, "{name}: machine {instance} in state {end}");
+            }
+        }
+    }
+}
+
+/// More times of `after` in one state than a byte counts.
+#[test]
+fn no_time_of_many_is_lost() {
+    let times = (1..=255).map(|number| format!("when x, after {} ms -> Waiting {{}}\n", number * 20));
+    let text = format!(
+        r#"// {{"robots": [{{"name": "pad", "type": "pad", "pose": [0, 0, 0]}}]}}
+device pad {{ part button = button {{}}; in x: bool = button.on; }}
+automaton Pad on pad {{
+    local is_late: bool;
+    initial state Waiting {{
+        {}
+        when after 5200 ms -> Late {{ is_late := true; }}
+    }}
+    final state Late;
+    invariant not is_late;
+}}"#,
+        times.collect::<String>()
+    );
+    let project = of_text(&text).project();
+    let searched = model(&project, &Asked::with(Faults::All)).expect("a line that can be searched");
+    assert_eq!(explore(&searched.model, &BOUNDS, &mut |_| true).violations.len(), 1);
+}
+
 /// What a file expects to be noticed stands behind `//~`.
 #[test]
 fn what_is_hardly_meant_is_noticed() {

@@ -266,6 +266,7 @@ fn forgetting_what_is_of_no_use_changes_no_verdict() {
             state.dead.clear();
             state.unread.clear();
             state.is_answer_dead = false;
+            state.is_error_dead = false;
         }
         let bounds = Bounds { answers: Some(1), violations: 100, ..BOUNDS };
         let (less, more) = (search(&model, &bounds), search(&whole, &bounds));

@@ -118,6 +118,7 @@ pub fn run(options: &VerifyOptions) -> Status {
         answers,
         shown: &shown,
         skipped: &skipped,
+        under_way: verify::under_way::places(&project.system, &project.plant, &asked),
         never,
     };
     match options.input.format {

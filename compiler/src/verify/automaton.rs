@@ -274,8 +274,9 @@ impl<'a> Instance<'a> {
         let dead = dead.map(|var| (*var, var.load(self.line.initial))).collect();
         let seen = self.line.seen[self.number].iter().filter(|_| !live.contains(&Remembers::Seen));
         let unread = seen.map(|input| Unread { input: *input, seen: seen_is, not_seen }).collect();
-        let is_answer_dead = !live.contains(&Remembers::Answer);
-        State { transitions, reads, times, dead, unread, is_answer_dead }
+        let [is_answer_dead, is_error_dead] =
+            [Remembers::Answer, Remembers::Error].map(|remembers| !live.contains(&remembers));
+        State { transitions, reads, times, dead, unread, is_answer_dead, is_error_dead }
     }
 
     fn transition(&mut self, transition: &ir::Transition) -> Transition {

@@ -137,6 +137,10 @@ impl Instance<'_> {
                 },
                 (Stored::Fixed(values), index) => points(values.into_iter().map(point).collect(), index),
                 (Stored::Signal(Signal::At(var)), _) => PointValue::Load(var),
+                (Stored::Signal(Signal::Position), _) => {
+                    self.asks_inputs = true;
+                    PointValue::Position(self.number)
+                }
                 (Stored::Signal(Signal::Found(found)), index) => points(found, index),
                 (Stored::Signal(_), _) => {
                     self.refuse(place);
@@ -276,7 +280,7 @@ impl Instance<'_> {
                 Some(port) => Int::Load(port, 0),
                 None => Int::Constant(0),
             },
-            (Signal::Unbounded | Signal::At(_) | Signal::Found(_), _) => {
+            (Signal::Unbounded | Signal::At(_) | Signal::Position | Signal::Found(_), _) => {
                 self.refuse(place);
                 Int::Constant(0)
             }

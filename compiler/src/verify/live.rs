@@ -9,8 +9,10 @@ use std::collections::BTreeSet;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Remembers {
     Local(usize),
-    /// To the last command.
+    /// Whether the last command has ended, and how.
     Answer,
+    /// What the port `error` shows: with a new command it stays until that has ended.
+    Error,
     /// What is seen over a conveyor, which stays as it is until the conveyor moves.
     Seen,
     /// Where an item was found there.
@@ -35,9 +37,11 @@ pub fn live(automaton: &Automaton, sight: &Sight, asked: &Asked) -> Vec<Set> {
     let mut always = Set::new();
     searched(automaton, asked).flat_map(read_by).for_each(|read| uses.expr(read, &mut always));
     if asked.remembered == Remembered::Whole {
-        always.extend(
-            (0..automaton.locals.len()).map(Remembers::Local).chain([Remembers::Answer, Remembers::Seen]),
-        );
+        always.extend((0..automaton.locals.len()).map(Remembers::Local).chain([
+            Remembers::Answer,
+            Remembers::Error,
+            Remembers::Seen,
+        ]));
     }
     let mut live = vec![always; automaton.states.len()];
     loop {
@@ -168,7 +172,7 @@ impl Uses<'_> {
                 live.insert(Remembers::Local(*local));
             }
             Place::Port { port, .. } if self.automaton.device.ports[*port].name == "error" => {
-                live.insert(Remembers::Answer);
+                live.insert(Remembers::Error);
             }
             Place::Port { port, .. } if self.sight.seen.contains(port) => {
                 live.insert(Remembers::Seen);

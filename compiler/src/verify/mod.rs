@@ -14,6 +14,7 @@ pub mod scenario;
 mod situation;
 pub mod story;
 mod strokes;
+pub mod under_way;
 mod unread;
 mod unsearched;
 

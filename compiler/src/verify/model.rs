@@ -19,6 +19,7 @@ use autogen_search::plant::{Order, Watch};
 use autogen_search::unread::Unread;
 use runtime_sim::device::{Direction, PortType};
 use runtime_sim::point::Point;
+use runtime_sim::wiring::Drives;
 use std::sync::Arc;
 
 /// A line as it is searched.
@@ -74,7 +75,8 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         let state = memory.number(number, format!("{name}.(state)"), automaton.states.len(), 0);
         let states = automaton.states.iter();
         let timers: Vec<&Expr> = states.flat_map(|state| Reads::of_guards(automaton, state).timers).collect();
-        let times = (!timers.is_empty()).then(|| memory.number(number, format!("{name}.(times)"), 255, 0));
+        let times =
+            (!timers.is_empty()).then(|| memory.number(number, format!("{name}.(times)"), timers.len(), 0));
         let elapsed = timers.iter().any(|time| !is_fixed(automaton, time)).then(|| {
             let name = format!("{name}.(elapsed)");
             memory.value(number, name, Scalar::Time, kept(Scalar::Time), Value::Int(0))
@@ -103,14 +105,14 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
             &mut changing,
         ));
         let mut outputs = vec![None; automaton.device.ports.len()];
-        let mut levels = whole.plants[number].outputs.iter();
-        for (port, output) in automaton.device.ports.iter().enumerate() {
-            if output.direction != Direction::Output {
-                continue;
-            }
-            let level = levels.next().copied().flatten();
+        let published = automaton.device.ports.iter().enumerate();
+        let published = published.filter(|(_, port)| port.direction == Direction::Output);
+        let driven = line.machines[number].wiring.outputs.iter().zip(&whole.plants[number].outputs);
+        for ((port, output), (wired, level)) in published.zip(driven) {
             outputs[port] = level.map(|var| (vec![var], 0));
-            if level.is_none() && reads_port(automaton, port, asked) {
+            // The number of the command grows without end.
+            let is_counted = matches!(wired.drives, Drives::Command | Drives::Verb);
+            if level.is_none() && !is_counted && reads_port(automaton, port, asked) {
                 let ty = Type { scalar: output.ty.into(), extent: output.extent.into() };
                 let initial = match output.ty {
                     PortType::Bool => Value::Bool(false),

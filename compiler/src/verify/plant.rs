@@ -38,6 +38,8 @@ pub enum Signal {
     Moves(Var, Option<Var>),
     /// The number of the stop at which it stands.
     AtStop,
+    /// Where a vehicle is.
+    Position,
     /// Where items of each kind are found.
     Found(Vec<[f64; 3]>),
     IsOpen,
@@ -73,11 +75,15 @@ fn coordinates(p: Point) -> [f64; 3] {
     [p.x, p.y, p.z]
 }
 
-/// The errors in which a command may end before anything has moved. Every device may refuse a command; an arm or a
-/// vehicle may find its goal out of reach, which an automaton can tell from that by the port `error` alone.
-fn refusals(action: Action, reads_error: bool) -> Vec<i32> {
-    match action {
-        Action::Motion | Action::Trip if reads_error => vec![error::REFUSED, error::UNREACHABLE],
+/// The errors in which a command may end before anything has moved, by the primitive of its part and the name of its
+/// action. Every device may refuse a command; what goes to a place may find it out of reach, which an automaton can tell
+/// from that by the port `error` alone.
+fn refusals(asked: (&str, &str), reads_error: bool) -> Vec<i32> {
+    match asked {
+        ("chain", "limits") => vec![error::REFUSED],
+        ("chain", _) | ("route" | "track" | "positioner", "to") if reads_error => {
+            vec![error::REFUSED, error::UNREACHABLE]
+        }
         _ => vec![error::REFUSED],
     }
 }
@@ -99,9 +105,7 @@ fn asked(machine: &Machine, command: &Command, reads_error: bool) -> (Asked, usi
         is_hold: signal_name(machine, then.part, then.signal) == ("grip", "holds"),
         error: then.error,
     });
-    // A place that a vehicle is too near to.
-    let asks_place = (schema.name, name) == ("track", "to");
-    let refusals = refusals(if asks_place { Action::Trip } else { action }, reads_error);
+    let refusals = refusals((schema.name, name), reads_error);
     let is_planned = matches!(name, "around" | "onto");
     let is_kept = action != Action::Other || command.arguments.is_empty();
     (Asked { action, is_kept, is_planned, awaits, refusals }, points)
@@ -179,7 +183,9 @@ pub fn plant(
                     goal: memory.point(number, name("(goal)"), first),
                     stops: route.stops.iter().map(|stop| coordinates(*stop)).collect(),
                     tolerance: route.tolerance,
-                    shown: shows(machine, ports, reads, ("route", "at_stop"))
+                    shown: ["position", "at_stop"]
+                        .into_iter()
+                        .any(|signal| shows(machine, ports, reads, ("route", signal)))
                         .then(|| memory.number(number, name("(shown stop)"), route.stops.len() + 1, 0)),
                 });
             }
@@ -451,7 +457,7 @@ fn signal(
     match (signal_name(machine, part, signal), &found.arm, &found.route, &found.lane) {
         (("grip", "holds"), Some(arm), ..) => return Signal::Held(arm.shown),
         (("chain", "tool"), Some(arm), ..) => return Signal::At(arm.tool),
-        (("route", "position"), _, Some(route), _) => return Signal::At(route.at),
+        (("route", "position"), _, Some(_), _) => return Signal::Position,
         (("route", "at_stop"), _, Some(_), _) => return Signal::AtStop,
         (("lane", "moves"), .., Some(lane)) if is_commanded(machine, part) => {
             return Signal::Moves(lane.motion, lane.shown);

@@ -22,9 +22,9 @@ pub fn machine(system: &System, (number, machine): (usize, &Machine)) -> Vec<Dia
     found
 }
 
-/// Nobody says which values an input of a machine may have.
+/// Nobody says which values a port of a machine may have that its automaton reads.
 pub fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {
-    let why = format!("no contract says which values its input `{port}` may have");
+    let why = format!("no contract says which values its port `{port}` may have");
     let help = "verify lines whose automata read booleans, whole numbers of few values, and places that commands fix";
     diagnostic(system, number, &why, help)
 }

@@ -21,6 +21,8 @@ pub struct Report<'a> {
     pub shown: &'a [Shown<'a>],
     /// Properties that were left out.
     pub skipped: &'a [Skipped],
+    /// What [`autogen::verify::under_way::places`] says.
+    pub under_way: Vec<String>,
     /// What [`never_entered`] says.
     pub never: Vec<(&'a str, Vec<&'a str>)>,
 }
@@ -77,6 +79,12 @@ impl Report<'_> {
                 .into(),
             "the system runs, without pauses and without an operator".into(),
         ];
+        if !self.under_way.is_empty() {
+            bounds.push(format!(
+                "while an arm moves, its tool is where the motion began; a vehicle is at its start, midway or at its goal: conditions read {}",
+                self.under_way.join(", ")
+            ));
+        }
         if self.outcome.covered.stops > 0 {
             bounds.push(format!(
                 "{} transitions end in a stop whose text calls the operator; the search does not continue after it",
