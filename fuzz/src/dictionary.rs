@@ -1,10 +1,10 @@
 //! Words of each grammar, from where the grammar itself has them: the documented productions, the tables of
 //! devices and of raw types, the definition of the command line.
 
-use crate::command::options::Cli;
 use autogen::io_map::Raw;
 use autogen::library;
 use autogen::spec::parser::RESERVED;
+use autogen_command_line::Cli;
 use autogen_tests::text;
 use clap::{Command, CommandFactory};
 use runtime_sim::part::ALL;

@@ -4,11 +4,6 @@
 //! Two drivers work on the same targets: `cargo test`, with fixed seeds, and libFuzzer, without end
 //! (`docs/development.md`).
 
-/// The modules of the command line as the binary has them: they are in no library, and only what reads
-/// options is used here.
-#[path = "../../compiler/src/command/mod.rs"]
-#[allow(dead_code)]
-mod command;
 pub mod dictionary;
 pub mod files;
 mod judge;
@@ -18,15 +13,3 @@ pub mod target;
 mod tree;
 
 pub use target::{Effort, Target};
-
-/// What a command came to; the modules of the command line name it.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Status {
-    Done = 0,
-    WrongInput = 1,
-    WrongCommand = 2,
-    NotReached = 3,
-    Undecided = 4,
-    Bug = 70,
-}

@@ -1,4 +1,4 @@
-//! `docs/errors.md` has every code that the compiler uses, and no other.
+//! `docs/errors.md` has every code that the compiler and the command line use, and no other.
 
 use autogen::diagnostic::explain;
 use autogen_tests::{root, text};
@@ -29,7 +29,9 @@ fn codes_in(folder: &Path, found: &mut BTreeSet<String>) {
 #[test]
 fn every_code_is_explained_and_used() {
     let mut used = BTreeSet::new();
-    codes_in(&root().join("compiler/src"), &mut used);
+    for folder in ["compiler/src", "command-line/src"] {
+        codes_in(&root().join(folder), &mut used);
+    }
     let text = text("docs/errors.md");
     let headings: Vec<String> =
         text.lines().filter_map(|l| l.strip_prefix("## ")).map(String::from).collect();

@@ -2,15 +2,11 @@
 
 use super::Effort;
 use super::line::{small, text};
-use crate::command::commission::io_delay;
-use crate::command::options::{Cli, Command, InputOptions, SweepOptions};
-use crate::command::sweep::axis::Axis;
-use crate::command::trajectories::milliseconds;
-use crate::command::why;
 use crate::judge;
 use autogen::diagnostic;
 use autogen::lower::Setting;
 use autogen::source::Sources;
+use autogen_command_line::{Axis, Cli, Command, InputOptions, SweepOptions, io_delay, milliseconds, scan};
 use autogen_tests::Texts;
 use clap::Parser;
 use runtime_sim::line::IoDelay;
@@ -52,7 +48,7 @@ pub fn answer(input: &[u8], effort: Effort) {
         Command::Compare(options) => of_line(&options.input(&options.first), input, effort),
         Command::Why(options) => {
             delay(&options.io_delay);
-            let scan = options.at.as_deref().and_then(|at| why::scan(at, 10));
+            let scan = options.at.as_deref().and_then(|at| scan(at, 10));
             assert!(scan.is_none_or(|scan| scan <= 100_000_000_000), "{scan:?}");
             of_line(&options.input, input, effort);
         }

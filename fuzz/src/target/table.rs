@@ -2,12 +2,12 @@
 
 use super::Effort;
 use super::line::{small, text};
-use crate::command::sweep::measured::Measured;
 use crate::judge;
 use autogen::backend::st;
 use autogen::io_map::{self, Counting, Point};
 use autogen::lower::Project;
 use autogen::source::Sources;
+use autogen_command_line::Measured;
 use autogen_tests::Texts;
 use std::sync::OnceLock;
 

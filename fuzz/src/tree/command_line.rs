@@ -1,8 +1,8 @@
 //! Command lines by choices, from the definition of the command line itself.
 
 use super::json::any;
-use crate::command::options::Cli;
 use arbitrary::{Result, Unstructured};
+use autogen_command_line::Cli;
 use clap::{ArgAction, CommandFactory};
 
 pub fn command_line(u: &mut Unstructured) -> Result<String> {

@@ -1,7 +1,7 @@
 //! A counterexample as a page: the run that shows it, or else its steps.
 
 use super::report::Shown;
-use crate::command::results::results;
+use crate::results::results;
 use autogen::backend::report::{self, story};
 use autogen::executor::Executor;
 use autogen::lower::Project;

@@ -30,7 +30,7 @@ pub struct Beside {
 impl Measured {
     /// Every column but that of the figures has to be one of `columns`, by which a sweep names its points;
     /// no two rows may name the same point.
-    pub fn read(path: &Path, columns: &[&str]) -> Result<Self, Refusal> {
+    pub(crate) fn read(path: &Path, columns: &[&str]) -> Result<Self, Refusal> {
         let text = load::text(path).map_err(Refusal::Failure)?;
         Self::parse(&path.display().to_string(), &text, columns).map_err(Refusal::Said)
     }

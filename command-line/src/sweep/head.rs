@@ -3,7 +3,7 @@
 use super::design::Design;
 use super::part::Part;
 use super::plan::{Line, Plan};
-use crate::command::output;
+use crate::output;
 use serde_json::{Map, Value, json};
 use std::env;
 use std::fs;

@@ -1,7 +1,7 @@
 //! The files that the client has open.
 
 use super::uri;
-use crate::command::read::{self, MOST_BYTES};
+use crate::read::{self, MOST_BYTES};
 use autogen::lsp::lines::Lines;
 use autogen::lsp::protocol::{TextDocumentContentChangeEvent, Uri};
 use std::collections::BTreeMap;

@@ -137,7 +137,7 @@ fn asks_nothing(built: &Built) -> Option<String> {
     })
 }
 
-/// How late devices answer, as `--io-delay` says it.
+/// How late devices answer, as `--io-delay` says it; none if it says something else.
 pub fn io_delay(text: &str) -> Option<IoDelay> {
     let random = |seed| Some(IoDelay::Random { max: 5, seed });
     match text.strip_prefix("random") {

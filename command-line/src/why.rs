@@ -73,7 +73,7 @@ fn is_stalled(report: &Report) -> bool {
     report.reason.starts_with("deadlock: ")
 }
 
-/// The scan in which this time lies.
+/// The scan in which a time lies, as `--at` says it; none if it is no time from 0 to 1e9 s.
 pub fn scan(seconds: &str, scan_ms: u32) -> Option<u64> {
     let seconds = seconds.parse::<f64>().ok().filter(|s| (0.0..=1e9).contains(s))?;
     // What is a whole number of scans may be a little less as a number.

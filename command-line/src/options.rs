@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 /// Compiles a factory layout and parameterized automata into controllers that can be deployed.
 #[derive(Debug, Parser)]
-#[command(version, about, after_help = STATUS)]
+#[command(name = "autogen", version, after_help = STATUS)]
 pub struct Cli {
     #[command(subcommand)]
     pub command: Command,

@@ -12,11 +12,11 @@ use std::path::Path;
 
 /// Names and texts; `{name}` in them is the name of the folder.
 const FILES: [(&str, &str); 5] = [
-    ("line.json", include_str!("../../../templates/new/line.json")),
-    ("scenario.json", include_str!("../../../templates/new/scenario.json")),
-    ("specs/stamp.aut", include_str!("../../../templates/new/stamp.aut")),
-    ("station.test", include_str!("../../../templates/new/station.test")),
-    ("README.md", include_str!("../../../templates/new/README.md")),
+    ("line.json", include_str!("../../templates/new/line.json")),
+    ("scenario.json", include_str!("../../templates/new/scenario.json")),
+    ("specs/stamp.aut", include_str!("../../templates/new/stamp.aut")),
+    ("station.test", include_str!("../../templates/new/station.test")),
+    ("README.md", include_str!("../../templates/new/README.md")),
 ];
 
 pub fn run(options: &NewOptions) -> Status {

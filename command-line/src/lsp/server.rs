@@ -8,7 +8,7 @@ use super::root::Root;
 use super::transport::{self, Incoming};
 use super::uri;
 use crate::Status;
-use crate::command::read;
+use crate::read;
 use autogen::lsp::lines::Lines;
 use autogen::lsp::protocol::json_rpc::{Error, Id, RequestObject, ResponseObject};
 use autogen::lsp::protocol::{

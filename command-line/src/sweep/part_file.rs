@@ -2,8 +2,8 @@
 
 use super::head::Head;
 use super::outcome::Outcome;
-use crate::command::load::Failure;
-use crate::command::read;
+use crate::load::Failure;
+use crate::read;
 use autogen::diagnostic::Diagnostic;
 use autogen::source::{Sources, Span};
 use serde_json::Value;

@@ -5,6 +5,7 @@
 pub struct Axis {
     /// `NAME.KEY`.
     pub name: String,
+    /// At least one.
     pub values: Vec<String>,
 }
 

@@ -3,7 +3,7 @@
 use super::documents::Documents;
 use super::root::{Found, Root};
 use super::uri;
-use crate::command::read::{self, MOST_BYTES};
+use crate::read::{self, MOST_BYTES};
 use autogen::lsp::diagnostics::{self, Located};
 use autogen::lsp::lines::Lines;
 use autogen::lsp::protocol::{Diagnostic, Location, PublishDiagnosticsParams};

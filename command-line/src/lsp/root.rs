@@ -1,8 +1,8 @@
 //! What is checked together: a layout with all that it names, or the automata of a folder that no layout names.
 
 use super::layouts::{self, Layouts};
-use crate::command::load::{self, Failure};
-use crate::command::{named, read};
+use crate::load::{self, Failure};
+use crate::{named, read};
 use autogen::check;
 use autogen::diagnostic::Diagnostic;
 use autogen::layout::{Layout, Panel};

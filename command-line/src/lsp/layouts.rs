@@ -1,7 +1,7 @@
 //! The layouts that a file belongs to: they stand in its folder or above it, since a layout names nothing outside
 //! of its own folder.
 
-use crate::command::read;
+use crate::read;
 use autogen::layout;
 use autogen::source::Sources;
 use std::collections::HashMap;

@@ -6,7 +6,7 @@ use super::manifest::{MANIFEST, Manifest, hash_of, hex};
 use super::present::{Present, obstacles, present};
 use super::transaction::{self, Change, create_parent, sync};
 use super::{OF_A_RUN, Overwrite, Refusal, among};
-use crate::command::interrupt::Temporary;
+use crate::interrupt::Temporary;
 use autogen::backend::Sink;
 use autogen::parallel::STACK;
 use sha2::{Digest, Sha256};

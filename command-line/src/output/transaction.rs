@@ -8,7 +8,7 @@
 use super::manifest::is_within;
 use super::present::{self, Present, obstacles, present};
 use super::{Refusal, among};
-use crate::command::interrupt::{self, Temporary};
+use crate::interrupt::{self, Temporary};
 use serde_json::{Value, json};
 use std::fs::{self, File};
 use std::io;
