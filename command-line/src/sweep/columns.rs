@@ -1,6 +1,5 @@
 //! Columns that stand in a table only if they are asked for.
 
-use super::design::Asked;
 use super::measured::Beside;
 use super::rows::Row;
 use serde_json::{Value, json};
@@ -20,7 +19,7 @@ impl Columns {
         let values = vec![
             ("items", json!(outcome.items)),
             ("items_asked", json!(outcome.items_asked)),
-            ("goal_s", json!(outcome.figure(Asked::Items))),
+            ("goal_s", json!(row.figure)),
             ("items_per_hour", json!(row.items_per_hour)),
         ];
         Self { values, texts: Vec::new() }

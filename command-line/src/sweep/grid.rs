@@ -6,7 +6,7 @@ use super::rows::Row;
 /// Values that fit beside one another on a page.
 const MOST_VALUES: usize = 12;
 
-/// The figure of each layout and value; `None` where not all was done.
+/// The figure of each layout and value; `None` where no run did all.
 pub struct Grid {
     asked: Asked,
     cells: Vec<Vec<Option<f64>>>,
@@ -31,7 +31,7 @@ impl Grid {
         if row.outcome.finished
             && let [value] = row.point.values[..]
         {
-            self.cells[row.point.layout][value] = row.outcome.figure(self.asked);
+            self.cells[row.point.layout][value] = row.figure;
         }
     }
 

@@ -76,7 +76,7 @@ impl Outcome {
         };
     }
 
-    /// The figure of a run that has done what was asked for, and of means of such runs.
+    /// The figure of a run that has done what was asked for.
     pub fn figure(&self, asked: Asked) -> Option<f64> {
         match asked {
             Asked::Orders => self.seconds_per_order,

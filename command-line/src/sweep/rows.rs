@@ -16,6 +16,8 @@ pub struct Row {
     /// Runs, and those of them in which all orders were made.
     pub runs: u32,
     pub finished_runs: usize,
+    /// Mean over the runs that have one.
+    pub figure: Option<f64>,
     /// Half of the width of the 95 % interval of the figure; `None` of less than two runs.
     pub half_width: Option<f64>,
     /// Mean over the runs in which all orders were made.
@@ -34,6 +36,7 @@ impl Row {
             outcome: Outcome::new(None, None),
             runs: 0,
             finished_runs: 0,
+            figure: None,
             half_width: None,
             cut_orders: None,
             items_per_hour: None,
@@ -86,6 +89,7 @@ impl Tally {
             outcome,
             runs: self.runs,
             finished_runs: self.cut_orders.count,
+            figure: self.figure.mean(),
             half_width: self.figure.half_width(),
             cut_orders: self.cut_orders.mean(),
             items_per_hour: self.items_per_hour.mean(),
@@ -125,6 +129,7 @@ impl<'a> Rows<'a> {
                 point: self.design.point(run.point),
                 runs: 1,
                 finished_runs: usize::from(outcome.finished),
+                figure: outcome.figure(self.design.asked),
                 half_width: None,
                 cut_orders: outcome.finished.then_some(outcome.cut_orders as f64),
                 items_per_hour: outcome.items_per_hour(),
@@ -175,4 +180,26 @@ pub fn worse(a: Status, b: Status) -> Status {
     };
     let worst = if rank(a) >= rank(b) { a } else { b };
     if worst == Status::WrongInput { Status::NotReached } else { worst }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of a run with a goal of items.
+    fn outcome(finished: bool, simulated_s: f64) -> Outcome {
+        Outcome { finished, simulated_s: Some(simulated_s), ..Outcome::new(None, Some(2)) }
+    }
+
+    #[test]
+    fn a_mean_is_over_the_runs_that_have_reached_the_goal() {
+        let mut tally = Tally::default();
+        let runs = [outcome(true, 10.0), outcome(false, 100.0), outcome(true, 30.0)];
+        for (number, outcome) in (0..).zip(runs) {
+            tally.take(number, outcome, Asked::Items);
+        }
+        let point = Point { layout: 0, values: Vec::new(), order: 0, delay: 0 };
+        let row = tally.row(point, Asked::Items).expect("a row");
+        assert_eq!((row.figure, row.runs, row.finished_runs), (Some(20.0), 3, 2));
+    }
 }

@@ -111,7 +111,7 @@ impl<'a> Table<'a> {
             TableFormat::Text if !self.quiet => {
                 let figures = match self.design.asked {
                     Asked::Orders => format!("{:>11}  {:>9}", "orders", "s/order"),
-                    Asked::Items => format!("{:>11}  {:>9}  {:>8}", "items", "goal at s", "items/h"),
+                    Asked::Items => format!("{:>11}  {:>8}  {:>9}", "items", "items/h", "goal at s"),
                 };
                 let simulated = "simulated";
                 let names = self.text(|name| name.title.into());
@@ -160,7 +160,7 @@ impl<'a> Table<'a> {
                     Asked::Items => {
                         let items = of(outcome.items, outcome.items_asked);
                         let per_hour = row.items_per_hour.map_or("-".into(), |n| format!("{n:.1}"));
-                        format!("{items:>11}  {:>9}  {per_hour:>8}", seconds(outcome.figure(Asked::Items)))
+                        format!("{items:>11}  {per_hour:>8}  {:>9}", seconds(row.figure))
                     }
                 };
                 let simulated = seconds(outcome.simulated_s);
@@ -200,8 +200,8 @@ impl<'a> Table<'a> {
         let cell = |title: &str| {
             names.iter().find(|name| name.title == title).map_or_else(String::new, |name| (name.cell)(row))
         };
-        let seconds = row.outcome.seconds_per_order.filter(|_| row.outcome.finished);
-        self.measured.as_mut().map(|measured| measured.beside(seconds, cell))
+        let figure = row.figure.filter(|_| self.design.asked == Asked::Orders);
+        self.measured.as_mut().map(|measured| measured.beside(figure, cell))
     }
 
     fn json(&self, row: &Row, columns: Vec<Columns>) -> Value {

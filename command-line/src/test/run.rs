@@ -211,7 +211,7 @@ fn on(
         Body::Line(expected) => {
             let mut watched = Watched::new(engine.controllers(), system);
             let report = simulate(&line.project.plant, &mut watched, stepping, &mut |_| {})?;
-            match testing::judge(system, &report, &watched, expected) {
+            match testing::judge(system, &line.sources, &report, &watched, expected) {
                 Ok(failures) => failures,
                 Err(found) => return Ok(Err(found)),
             }

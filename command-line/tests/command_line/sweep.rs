@@ -409,7 +409,7 @@ fn of_a_goal_of_items_rows_have_the_time_until_it_and_the_items() {
 
     let text = printed(&sweep(&[]));
     let head = text.lines().next().expect("a line");
-    assert!(head.contains("      items  goal at s   items/h     simulated  reason"), "{text}");
+    assert!(head.contains("      items   items/h  goal at s     simulated  reason"), "{text}");
     assert!(text.contains("goal at, s, by from_a_to_b.work"), "{text}");
     // A run that ends before the goal has its items, and no time.
     let output = sweep(&["--format", "json", "--scenario", "short.json"]);

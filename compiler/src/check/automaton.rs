@@ -188,7 +188,7 @@ impl Context<'_, '_> {
                         clause.interface.span,
                         format!("`{}` occurs here twice", clause.interface.value),
                     )
-                    .help("remove one"),
+                    .help("remove one; what a machine accepts and what it offers have an interface each"),
                 ),
                 Some(id) => declared.push(id),
             }

@@ -177,7 +177,12 @@ impl Checker<'_> {
             Ok(Found::Duration(ms)) if fits => Some(Value::Number(ms as f64)),
             _ => {
                 let message = format!("`{}` cannot have this value by default", parameter.name.value);
-                let help = "only a `real`, a `time` or a `point` has a default: a number, a time such as `2 s`, or `point(x, y, z)`";
+                let help = match form {
+                    Form::Time => "write a time with its unit, such as `6 s` or `250 ms`",
+                    _ => {
+                        "only a `real`, a `time` or a `point` has a default: a number, a time such as `2 s`, or `point(x, y, z)`"
+                    }
+                };
                 self.report("E0701", expr.span, message, help);
                 None
             }

@@ -3,7 +3,9 @@
 use super::value;
 use super::{Comparison, Expect, Failure, Figure, What};
 use crate::diagnostic::Diagnostic;
+use crate::fault::reason_of_run;
 use crate::ir::System;
+use crate::source::Sources;
 use runtime_sim::report::Report;
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 use std::collections::BTreeMap;
@@ -89,10 +91,13 @@ impl Controllers for Watched<'_> {
 /// What a run lacks of what was expected of it; an error, if that is of no line.
 pub fn judge(
     system: &System,
+    sources: &Sources,
     report: &Report,
     watched: &Watched,
     expected: &[Expect],
 ) -> Result<Vec<Failure>, Vec<Diagnostic>> {
+    // As `commission` prints it.
+    let report = &Report { reason: reason_of_run(report, system, sources), ..report.clone() };
     let mut failures = Vec::new();
     let mut wrong = Vec::new();
     for expect in expected {

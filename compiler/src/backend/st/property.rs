@@ -96,7 +96,10 @@ pub fn body(lowering: &mut Lowering) -> Vec<Stmt> {
             out.extend(guarded(violated, lowering.raise(property.site)));
             continue;
         }
-        out.push(assign(VIOLATED, violated));
+        // A `keep` has put it there.
+        if !matches!(&violated, Ex::Name(name) if name == VIOLATED) {
+            out.push(assign(VIOLATED, violated));
+        }
         out.extend(note(entry(alarm), property.severity));
         alarm += 1;
     }

@@ -60,8 +60,8 @@ pub fn find(decoder: &mut Decoder, network: &Network) -> Option<Vec<Track>> {
         decoder.report(
             Diagnostic::new("E1112", network.nodes[*first].id.span, message)
                 .note(format!("junctions of the file: {} ({})", junctions.len(), all.join(", ")))
-                .note("a track is one closed way, or one way between two ends, without junctions")
-                .help("export each loop that a vehicle drives as a layout of its own; vehicles may share a stretch of floor on different tracks"),
+                .note("what is imported is one closed way, or one way between two ends, without junctions")
+                .help("export each loop that a vehicle drives as a layout of its own, or write the network by hand: a track takes `nodes` and `edges`, a layout `routes`"),
         );
     }
     if network.edges.is_empty() && decoder.diagnostics.is_empty() {
