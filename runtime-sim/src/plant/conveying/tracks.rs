@@ -10,7 +10,6 @@ use crate::machine::Machine;
 use crate::part::Primitive;
 use crate::part::lane::{CentreLine, Lane, Rider};
 use crate::part::source::{self, Spawn};
-use crate::part::stroke::Strokes;
 
 /// A lane with all that stands at it. Places are those of its centre line.
 #[derive(Clone, Debug)]
@@ -101,7 +100,7 @@ pub fn tracks(line: &Line) -> Vec<Track> {
     };
     let places: Vec<(usize, usize)> = lanes().map(|(machine, part, _)| (machine, part)).collect();
     let centre_lines: Vec<Vec<(Option<usize>, CentreLine)>> =
-        lanes().map(|(machine, _, lane)| centre_lines(&line.machines[machine], lane)).collect();
+        lanes().map(|(machine, _, lane)| line.machines[machine].centre_lines(lane)).collect();
     let number = |machine: usize, part: usize| places.iter().position(|place| *place == (machine, part));
     let track = |(index, (machine, part, lane)): (usize, (usize, usize, &Lane))| Track {
         machine,
@@ -117,16 +116,6 @@ pub fn tracks(line: &Line) -> Vec<Track> {
         half_widths: line.kinds.iter().map(|kind| lane.lengths_of(kind.size)[1] / 2.0).collect(),
     };
     lanes().enumerate().map(track).collect()
-}
-
-/// Where a lane lies: at each stop of its cylinder or positioner, if it is on one.
-pub fn centre_lines(machine: &Machine, lane: &Lane) -> Vec<(Option<usize>, CentreLine)> {
-    let Some(Strokes { stroke, stops, .. }) = lane.on.and_then(|part| machine.parts[part].strokes()) else {
-        return vec![(None, lane.centre_line)];
-    };
-    let moved =
-        |out: f64| stroke.map_or(lane.centre_line, |stroke| lane.centre_line.moved(stroke.frame(out)));
-    stops.iter().enumerate().map(|(stop, out)| (Some(stop), moved(*out))).collect()
 }
 
 /// The lanes on which a lane continues.

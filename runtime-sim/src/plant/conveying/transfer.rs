@@ -1,7 +1,7 @@
 //! Where items of each conveyor may get from there, whatever is commanded.
 
 use super::branch::Kind;
-use super::tracks::{ALIGNED, JOINED, Track, apart, centre_lines, tracks};
+use super::tracks::{ALIGNED, JOINED, Track, apart, tracks};
 use crate::line::Line;
 use crate::part::Primitive;
 
@@ -61,7 +61,7 @@ fn branches_onto(track: &Track, number: usize) -> bool {
 /// What is left at the best of the joints of two conveyors.
 fn margin(line: &Line, from: (usize, usize), to: (usize, usize)) -> Option<[f64; 2]> {
     let lines = |(machine, part): (usize, usize)| match &line.machines[machine].parts[part].primitive {
-        Primitive::Lane(lane) => centre_lines(&line.machines[machine], lane),
+        Primitive::Lane(lane) => line.machines[machine].centre_lines(lane),
         _ => Vec::new(),
     };
     let begins = lines(to);
@@ -78,7 +78,7 @@ fn margin(line: &Line, from: (usize, usize), to: (usize, usize)) -> Option<[f64;
 /// Whether a conveyor ends over another one.
 fn is_over(line: &Line, from: (usize, usize), to: (usize, usize)) -> bool {
     let lane = |(machine, part): (usize, usize)| match &line.machines[machine].parts[part].primitive {
-        Primitive::Lane(lane) => Some((centre_lines(&line.machines[machine], lane), lane.width)),
+        Primitive::Lane(lane) => Some((line.machines[machine].centre_lines(lane), lane.width)),
         _ => None,
     };
     let (Some((above, _)), Some((below, width))) = (lane(from), lane(to)) else { return false };
