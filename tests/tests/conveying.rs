@@ -115,9 +115,24 @@ fn devices_whose_parts_cannot_be_there_are_refused() {
             &format!("{pin} part gate = stopper {{ of: second_lane; at: 1.01; by: pin; }};"),
             "gate is 1.010 m from the beginning of a lane of 1.000 m",
         ),
+        (
+            "part box = sink { of: first_lane; inset: 1.2; };",
+            "box is 1.200 m from the end of a lane of 1.000 m",
+        ),
+        (
+            "part box = sink { of: first_lane; inset: -0.1; };",
+            "box is -0.100 m from the end of a lane of 1.000 m",
+        ),
     ] {
         let found = refused(part);
         assert_eq!(found, format!("`gap` cannot be built from its device: {message}"));
+    }
+    for (inset, at) in [("1.1", "1.100"), ("-0.2", "-0.200")] {
+        let mut texts = with_gap(0.0, 0.0);
+        texts.specs[0] = texts.specs[0].replacen("inset: 0.2", &format!("inset: {inset}"), 1);
+        let found = &texts.compile().diagnostics[0];
+        let message = format!("entry is {at} m from the beginning of a lane of 1.000 m");
+        assert_eq!((found.code, found.message.ends_with(&message)), ("E0711", true), "{}", found.message);
     }
 }
 

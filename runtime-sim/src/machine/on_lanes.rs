@@ -60,6 +60,8 @@ impl Machine {
             Primitive::Stopper(stopper) => (stopper.lane, stopper.at, "beginning"),
             Primitive::Diverter(diverter) => (diverter.lane, diverter.at, "beginning"),
             Primitive::Pusher(pusher) => (pusher.lane, pusher.at, "beginning"),
+            Primitive::Source(source) => (source.lane, source.inset, "beginning"),
+            Primitive::Sink(sink) => (sink.lane, sink.inset, "end"),
             _ => return Ok(()),
         };
         let Some(lane) = self.lane_of(lane) else { return Ok(()) };
