@@ -27,6 +27,7 @@ use crate::{connect, ir};
 use runtime_sim::line::Supply;
 use runtime_sim::part::Primitive;
 use runtime_sim::plant::{By, Transfer};
+use std::collections::HashSet;
 
 /// What is to be compiled; every text is in `sources` already, and the layout is read.
 #[derive(Clone, Debug)]
@@ -107,7 +108,7 @@ pub struct Verdict {
     pub apart: Vec<Apart>,
 }
 
-/// From one conveyor to another one, each as `belt.lane`.
+/// From one conveyor to another one, or by a fall to a place, each as `belt.lane`.
 #[derive(Clone, Debug)]
 pub struct Passage {
     pub from: String,
@@ -159,9 +160,15 @@ impl Verdict {
             format!("{}.{}", machine.name, machine.parts[part].name)
         };
         let passage =
-            |Transfer { from, to, by }: &Transfer| Passage { from: name(*from), to: name(*to), by: *by };
+            |Transfer { from, to, by, .. }: &Transfer| Passage { from: name(*from), to: name(*to), by: *by };
         self.passages = transfers.iter().map(passage).collect();
         self.losses = collected::losses(line, edges, transfers);
+        // What nobody hands over to may have its items from a conveyor.
+        let has_source = |machine: usize| line.machines[machine].has("source");
+        let fed = transfers.iter().filter(|transfer| transfer.from.0 != transfer.to.0);
+        let fed: HashSet<&String> =
+            fed.map(|t| t.to.0).filter(|to| !has_source(*to)).map(|to| &line.machines[to].name).collect();
+        self.sources.retain(|source| !fed.contains(source));
         for (number, machine) in line.machines.iter().enumerate() {
             for (part, of) in machine.parts.iter().enumerate() {
                 match of.primitive {

@@ -6,6 +6,7 @@
 mod ahead;
 mod branch;
 mod gap;
+mod landing;
 mod spot;
 #[cfg(test)]
 mod tests;

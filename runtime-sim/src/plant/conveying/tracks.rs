@@ -39,6 +39,11 @@ impl Track {
     pub fn leads_onto(&self, other: usize) -> bool {
         self.joints.iter().any(|joint| joint.onto == other)
     }
+
+    /// Whether nothing ever falls at its end.
+    pub fn is_always_joined(&self) -> bool {
+        self.joints.iter().any(|joint| joint.when == [None, None])
+    }
 }
 
 /// A lane that begins where another one ends.
