@@ -116,6 +116,10 @@ fn devices_whose_parts_cannot_be_there_are_refused() {
             "gate is 1.010 m from the beginning of a lane of 1.000 m",
         ),
         (
+            "part bin = sink { of: second_lane; inset: 0.3; };",
+            "end and bin are both a sink of second_lane: one of them takes all items",
+        ),
+        (
             "part box = sink { of: first_lane; inset: 1.2; };",
             "box is 1.200 m from the end of a lane of 1.000 m",
         ),

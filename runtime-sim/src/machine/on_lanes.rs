@@ -36,6 +36,7 @@ impl Machine {
         let of_part = |reason| Misfit::of(index, reason);
         self.check_beside(part).map_err(of_part)?;
         match &part.primitive {
+            Primitive::Sink(sink) => self.check_only_sink(index, sink.lane),
             Primitive::Diverter(d) => {
                 self.check_branch(index, &Branch { lane: d.lane, at: d.at, onto: d.onto })
             }
@@ -44,6 +45,19 @@ impl Machine {
             }
             _ => Ok(()),
         }
+    }
+
+    /// The first sink on the way takes all items.
+    fn check_only_sink(&self, index: usize, lane: usize) -> Result<(), Misfit> {
+        let mut before = self.parts[..index].iter();
+        let other = before.find(|o| matches!(&o.primitive, Primitive::Sink(sink) if sink.lane == lane));
+        let Some(other) = other else { return Ok(()) };
+        let (name, lane) = (&self.parts[index].name, &self.parts[lane].name);
+        let reason =
+            format!("{} and {name} are both a sink of {lane}: one of them takes all items", other.name);
+        Err(Misfit::of(index, reason).fix(
+            "take one of them out, or let a diverter or a pusher lead to another lane with the other one",
+        ))
     }
 
     fn lane_of(&self, part: usize) -> Option<&Lane> {
