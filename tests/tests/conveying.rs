@@ -451,6 +451,64 @@ fn none_is_in_another(places: &[Vec<Option<Point>>]) {
     }
 }
 
+/// Nobody asks for the second item, though the conveyor goes on.
+#[test]
+fn a_source_that_waits_for_a_release_does_not_keep_a_run_alive() {
+    let device = "device magazine {
+            part belt = lane { from: origin * frame(0, 0, 0.7, 0); length: 1.0; width: 0.3; speed: 0.2; };
+            part feed = source { on: belt; inset: 0.1; };
+            part end = sink { of: belt; inset: 0; };
+            out run: bool = belt.run;
+            out release: bool = feed.release;
+        }
+        automaton Magazine on magazine {
+            initial -> Asks { run := true; release := true; }
+            state Asks { when after 100 ms -> Rests { release := false; } }
+            final state Rests;
+        }";
+    let scenario = r#"{
+        "kinds": [{"name": "box", "height": 0.1}],
+        "supply": {"items": ["box"], "times": 2},
+        "goal": {"magazine.end": {"box": 2}}
+    }"#;
+    let robots = r#"{"name": "magazine", "type": "magazine", "pose": [0, 0, 0]}"#;
+    assert_stalls_after(&line(device, robots, scenario), 4.5);
+}
+
+/// The first item stands where the source is, so that there is no room for the second one, which is due after 6 s.
+#[test]
+fn a_source_without_room_does_not_keep_a_run_alive() {
+    let device = "device queue {
+            part belt = lane { from: origin * frame(0, 0, 0.7, 0); length: 1.0; width: 0.3; speed: 0.2; };
+            part feed = source { on: belt; inset: 0.2; };
+            part pin = cylinder { extend: 100 ms; retract: 100 ms; begins_out: true; };
+            part gate = stopper { of: belt; at: 0.4; by: pin; };
+            part end = sink { of: belt; inset: 0; };
+            out run: bool = belt.run;
+            out shut: bool = pin.extend;
+        }
+        automaton Queue on queue {
+            initial -> Rests { run := true; shut := true; }
+            final state Rests;
+        }";
+    let scenario = r#"{
+        "kinds": [{"name": "box", "height": 0.1, "size": [0.3, 0.2]}],
+        "supply": {"items": ["box"], "times": 2, "every_s": 3},
+        "goal": {"queue.end": {"box": 2}}
+    }"#;
+    let robots = r#"{"name": "queue", "type": "queue", "pose": [0, 0, 0]}"#;
+    assert_stalls_after(&line(device, robots, scenario), 6.0);
+}
+
+/// The last thing happens at a time, in s; then it is only waited for more.
+fn assert_stalls_after(texts: &Texts, seconds: f64) {
+    let stall = texts.project().plant.scenario.stall_limit_s;
+    let report = run(texts).expect("a line").expect("the same however it is stepped");
+    assert!(report.reason.starts_with("deadlock"), "{}", report.reason);
+    let since = report.simulated_s - stall;
+    assert!((since - seconds).abs() < 1.0, "{since} s");
+}
+
 /// A feeder with a conveyor 1 m long.
 const FEEDER: &str = "device feeder {
         part belt = lane { from: origin * frame(0, 0, 0.7, 0); length: 1.0; width: 0.4; speed: 0.2; };

@@ -3,7 +3,7 @@
 use super::super::working::Working;
 use super::branch::{Branch, Kind, Stops};
 use super::spot::Spot;
-use super::{AT_ONCE, Among, Goes, SAME};
+use super::{AT_ONCE, Among, Goes, SAME, View};
 use crate::carrier::Carrier;
 use crate::line::Line;
 use crate::machine::Machine;
@@ -76,11 +76,6 @@ pub struct Feed {
 }
 
 impl Feed {
-    /// Items are still to appear.
-    pub fn is_open(&self) -> bool {
-        !self.supply.is_empty()
-    }
-
     /// Takes note of how many items were asked for; whether that has changed.
     pub fn look(&mut self, machine: &Working) -> bool {
         let asked = machine.asked(self.part);
@@ -278,7 +273,7 @@ impl Track {
 
 /// Items appear on a lane whose time has come, as soon as there is room.
 pub fn appear(tracks: &mut [Track], index: usize, among: &mut Among, ms: f64) {
-    while feed_ms(tracks, index, among, ms) <= ms + AT_ONCE {
+    while feed_ms(tracks, index, among.view(), ms) <= ms + AT_ONCE {
         let track = &mut tracks[index];
         let lane = among.lane(track);
         let (centre_line, machine, part) = (lane.lane().centre_line, track.machine, track.part);
@@ -296,11 +291,11 @@ pub fn appear(tracks: &mut [Track], index: usize, among: &mut Among, ms: f64) {
 }
 
 /// When the next item appears on a lane, if all continues as it does, ms; infinity: never.
-pub fn feed_ms(tracks: &[Track], index: usize, among: &Among, ms: f64) -> f64 {
+pub fn feed_ms(tracks: &[Track], index: usize, view: View, ms: f64) -> f64 {
     let track = &tracks[index];
     let Some(feed) = &track.feed else { return f64::INFINITY };
     let Some(next) = feed.supply.last() else { return f64::INFINITY };
-    let lane = among.lane(track);
+    let lane = view.lane(track);
     let is_asked_for = feed.asked.is_some_and(|asked| asked > feed.spawned);
     if !is_asked_for && (feed.asked.is_some() || !lane.is_moving()) {
         return f64::INFINITY;
@@ -312,7 +307,7 @@ pub fn feed_ms(tracks: &[Track], index: usize, among: &Among, ms: f64) -> f64 {
     if due_ms > ms + AT_ONCE {
         return due_ms;
     }
-    let half = track.halves[among.items[*next].kind];
+    let half = track.halves[view.items[*next].kind];
     let spot = Spot { track: index, place: feed.place, item: *next, half };
-    spot.free_ms(tracks, among, ms).max(due_ms)
+    spot.free_ms(tracks, view, ms).max(due_ms)
 }
