@@ -142,6 +142,7 @@ fn a_table_under_a_chute_gives_its_items_to_an_arm() {
     assert_eq!(verdict.sources, ["c"]);
     let without: Vec<&str> = verdict.losses.iter().map(|loss| loss.machine.as_str()).collect();
     assert_eq!(without, ["c", "t", "crane"]);
+    assert_eq!(verdict.single_points, ["t", "crane"]);
     assert_eq!(report(&texts).reason, "all items collected");
     // Higher than the end of the chute.
     texts.layout = texts.layout.replace("[1.05, 0, 0]", "[1.05, 0, 0.2]");
@@ -156,7 +157,45 @@ fn a_vehicle_that_comes_under_a_chute_takes_its_items_to_an_arm() {
     let verdict = outcome.verdict.expect("a verdict");
     assert_eq!(passages(&verdict), [["chute.belt", "v1.deck"]]);
     assert_eq!(verdict.sources, ["chute"]);
+    assert_eq!(verdict.single_points, ["v1", "crane"]);
     assert_eq!(report(&texts).reason, "all items collected");
     texts.layout = texts.layout.replace("[-1.1, 0, 0]", "[-1.1, 1, 0]");
     assert_eq!(errors(&texts.compile()), [("E0410", "no `box` can get to the sink out.store".into())]);
+}
+
+/// Conveyors in a row, of which every item passes the second one; with another inlet beside it, only the last one.
+#[test]
+fn every_item_passes_the_conveyors_of_a_row() {
+    let device = |name: &str, automaton: &str, part: &str| {
+        format!(
+            "device {name} {{
+                part belt = lane {{ from: origin; length: 1.0; width: 0.4; speed: 0.3; }};
+                {part}
+                out run: bool = belt.run;
+            }}
+            automaton {automaton} on {name} {{ initial -> Runs {{ run := true; }} state Runs {{ when false -> Runs {{}} }} }}"
+        )
+    };
+    let specs = vec![
+        device("inlet", "Inlet", "part feed = source { on: belt; inset: 0.1; };"),
+        device("middle", "Middle", ""),
+        device("outlet", "Outlet", "part bin = sink { of: belt; inset: 0; };"),
+    ];
+    let single_points = |more: &str| {
+        let layout = format!(
+            r#"{{"robots": [
+                {{"name": "a", "type": "inlet", "pose": [0, 0, 0]}}, {{"name": "b", "type": "middle", "at": "a.belt"}},
+                {{"name": "c", "type": "middle", "at": "b.belt"}}, {{"name": "d", "type": "outlet", "at": "c.belt"}}{more}
+            ]}}"#
+        );
+        let scenario = r#"{"kinds": [{"name": "box", "height": 0.1}],
+            "supply": {"items": {"a": ["box"]}}, "goal": {"d.bin": {"box": 1}}}"#;
+        let texts =
+            Texts { layout, specs: specs.clone(), scenario: Some(scenario.into()), ..Texts::default() };
+        let outcome = texts.compile();
+        assert_eq!(errors(&outcome), []);
+        outcome.verdict.expect("a verdict").single_points
+    };
+    assert_eq!(single_points(""), ["b", "c"]);
+    assert_eq!(single_points(r#", {"name": "e", "type": "inlet", "pose": [1, 0, 0]}"#), ["c"]);
 }

@@ -24,7 +24,8 @@ use crate::layout::{MayTouch, Reading};
 use crate::scenario::Drawn;
 use crate::source::{FileId, Sources};
 use crate::{connect, ir};
-use runtime_sim::line::Supply;
+use runtime_sim::line::{Goal, Supply};
+use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
 use runtime_sim::plant::{By, Transfer};
 use std::collections::HashSet;
@@ -180,6 +181,32 @@ impl Verdict {
                 }
             }
         }
+        self.single_points = self.single_points(line, edges, transfers);
+    }
+
+    fn single_points(
+        &self,
+        line: &runtime_sim::line::Line,
+        edges: &[connect::Edge],
+        transfers: &[Transfer],
+    ) -> Vec<String> {
+        let those = |wanted: &dyn Fn(&Machine) -> bool| -> Vec<usize> {
+            let machines = line.machines.iter().enumerate();
+            machines.filter(|(_, machine)| wanted(machine)).map(|(number, _)| number).collect()
+        };
+        let named = |names: &[String]| {
+            let names: HashSet<&String> = names.iter().collect();
+            those(&|machine| names.contains(&machine.name))
+        };
+        let leaves: Vec<usize> = match &line.scenario.goal {
+            Goal::Collected(sinks) => sinks.iter().map(|sink| sink.machine).collect(),
+            _ if self.destinations.is_empty() => those(&|machine| machine.has("sink")),
+            Goal::AllOrders | Goal::TimeLimit => named(&self.destinations),
+        };
+        let handovers = edges.iter().map(|edge| [edge.from, edge.to]);
+        let conveyed = transfers.iter().map(|transfer| [transfer.from.0, transfer.to.0]);
+        let passed = connect::single_points(handovers.chain(conveyed), &named(&self.sources), &leaves);
+        passed.into_iter().map(|machine| line.machines[machine].name.clone()).collect()
     }
 }
 
