@@ -120,6 +120,10 @@ fn devices_whose_parts_cannot_be_there_are_refused() {
             "end and bin are both a sink of second_lane: one of them takes all items",
         ),
         (
+            "part low = lane { from: origin * frame(5, 0, 0.1, 0); length: 1; rise: -0.3; width: 0.4; speed: 0.5; };",
+            "low ends 0.200 m below the floor",
+        ),
+        (
             "part box = sink { of: first_lane; inset: 1.2; };",
             "box is 1.200 m from the end of a lane of 1.000 m",
         ),
@@ -181,6 +185,17 @@ fn what_is_pushed_comes_onto_a_lane_that_begins_beside() {
         let fix = "let the other lane begin beside the place at `at`, and no higher; or change `at`";
         let message = format!("`rig` cannot be built from its device: {message}");
         assert_eq!(found, [("E0711", message, fix.to_string())], "{side}");
+    }
+}
+
+#[test]
+fn a_conveyor_rises_by_less_than_its_length() {
+    for (rise, told) in [("1.2", "1.200"), ("-1.0", "-1.000")] {
+        let mut texts = with_gap(0.0, 0.0);
+        texts.specs[0] = texts.specs[0].replacen("length: 1.0", &format!("length: 1.0; rise: {rise}"), 1);
+        let found: Vec<_> = texts.compile().diagnostics.into_iter().map(|f| (f.code, f.message)).collect();
+        let message = format!("it rises by {told} m over a length of 1.000 m along its middle line");
+        assert!(matches!(&found[..], [("E0704", told)] if told.ends_with(&message)), "{found:?}");
     }
 }
 

@@ -30,12 +30,14 @@ impl Machine {
         stops.iter().enumerate().map(|(stop, out)| (Some(stop), moved(*out))).collect()
     }
 
-    /// Whether what stands at a lane stands beside it, and beside the lane onto which it brings items.
+    /// Whether a lane is over the floor; whether what stands at a lane stands beside it, and beside the lane onto which it
+    /// brings items.
     pub(super) fn check_on_lanes(&self, index: usize) -> Result<(), Misfit> {
         let part = &self.parts[index];
         let of_part = |reason| Misfit::of(index, reason);
         self.check_beside(part).map_err(of_part)?;
         match &part.primitive {
+            Primitive::Lane(lane) => self.check_over_floor(&part.name, lane).map_err(of_part),
             Primitive::Sink(sink) => self.check_only_sink(index, sink.lane),
             Primitive::Diverter(d) => {
                 self.check_branch(index, &Branch { lane: d.lane, at: d.at, onto: d.onto })
@@ -45,6 +47,18 @@ impl Machine {
             }
             _ => Ok(()),
         }
+    }
+
+    fn check_over_floor(&self, name: &str, lane: &Lane) -> Result<(), String> {
+        for (_, line) in self.centre_lines(lane) {
+            for (place, verb) in [(line.begin(), "begins"), (line.end(), "ends")] {
+                let height = line.point(place, 0.0).z;
+                if height < -ROUNDED {
+                    return Err(format!("{name} {verb} {:.3} m below the floor", -height));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The first sink on the way takes all items.
