@@ -1,5 +1,7 @@
 //! A machine of a line: the parts of its device with their settings, and how its I/O is wired to them.
 
+mod on_lanes;
+
 use crate::device::PortType;
 use crate::frame::Frame;
 use crate::kinematics::arm::Arm;
@@ -42,23 +44,31 @@ pub const MOST_ELEMENTS: usize = 1024;
 /// What is rounded in a length, m.
 const ROUNDED: f64 = 1e-6;
 
+/// How to correct most of what does not fit.
+const FIX: &str = "change the device, or the values of the machine in the layout";
+
 /// Why parts are no machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Misfit {
     pub reason: String,
     /// The part that does not fit, by its number, if it is one.
     pub part: Option<usize>,
+    pub fix: &'static str,
 }
 
 impl From<&str> for Misfit {
     fn from(reason: &str) -> Self {
-        Self { reason: reason.into(), part: None }
+        Self { reason: reason.into(), part: None, fix: FIX }
     }
 }
 
 impl Misfit {
     fn of(part: usize, reason: impl Into<String>) -> Self {
-        Self { reason: reason.into(), part: Some(part) }
+        Self { reason: reason.into(), part: Some(part), fix: FIX }
+    }
+
+    fn fix(self, fix: &'static str) -> Self {
+        Self { fix, ..self }
     }
 }
 
@@ -73,9 +83,8 @@ impl Machine {
             if !names.insert(&part.name) {
                 return Err(Misfit::of(index, format!("two parts {}", part.name)));
             }
-            let of_part = |reason| Misfit::of(index, reason);
-            self.check_references(index, part).map_err(of_part)?;
-            self.check_on_lane(part).map_err(of_part)?;
+            self.check_references(index, part).map_err(|reason| Misfit::of(index, reason))?;
+            self.check_on_lanes(index)?;
         }
         for (index, part) in self.parts.iter().enumerate() {
             let Primitive::Place(place) = &part.primitive else { continue };
@@ -147,26 +156,6 @@ impl Machine {
             if !primitives.contains(&schema.name) || !is_there {
                 return Err(format!("the part {} cannot refer to {}", part.name, other.name));
             }
-        }
-        Ok(())
-    }
-
-    /// Whether what stands at a place of a lane stands beside it.
-    fn check_on_lane(&self, part: &Part) -> Result<(), String> {
-        let (lane, at) = match &part.primitive {
-            Primitive::Beam(beam) => (beam.lane, beam.at),
-            Primitive::Gauge(gauge) => (gauge.lane, gauge.at),
-            Primitive::Stopper(stopper) => (stopper.lane, stopper.at),
-            Primitive::Diverter(diverter) => (diverter.lane, diverter.at),
-            Primitive::Pusher(pusher) => (pusher.lane, pusher.at),
-            _ => return Ok(()),
-        };
-        let Some(Primitive::Lane(lane)) = self.parts.get(lane).map(|part| &part.primitive) else {
-            return Ok(());
-        };
-        let length = lane.centre_line.begin() - lane.centre_line.end();
-        if !(-ROUNDED..=length + ROUNDED).contains(&at) {
-            return Err(format!("{} is {at:.3} m from the beginning of a lane of {length:.3} m", part.name));
         }
         Ok(())
     }

@@ -28,7 +28,7 @@ use crate::part::stroke::Stroking;
 use crate::part::track::Driving;
 use crate::point::Point;
 use conveyed::Conveyed;
-use conveying::{Among, Conveying, Falls};
+use conveying::{Among, Conveying, Falls, View};
 pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use gripping::{Lying, NextLook};
 use trajectory::Trajectory;
@@ -412,7 +412,7 @@ impl Plant {
         let now_ms = self.now_ms();
         self.faulty.iter().any(|machine| self.machines[*machine].faults().is_passing(self.scan))
             || self.machines.iter().any(|machine| machine.is_busy(&self.items, &self.desk, self.scan, now_ms))
-            || self.conveying.is_busy(&self.machines)
+            || self.conveying.is_busy(View { machines: &self.machines, items: &self.items }, now_ms)
     }
 
     /// Whether a machine moves at the start of this scan.

@@ -90,12 +90,42 @@ impl Flow {
     pub fn single_points(&self, stands: &[bool]) -> Vec<usize> {
         let ends: Vec<NodeIndex> =
             self.graph.neighbors(self.entry).chain(Reversed(&self.graph).neighbors(self.exit)).collect();
-        let dominators = dominators::simple_fast(&self.standing(stands), self.entry);
-        let mut passed: Vec<NodeIndex> =
-            dominators.strict_dominators(self.exit).into_iter().flatten().collect();
-        passed.retain(|node| *node != self.entry && !ends.contains(node));
-        passed.into_iter().rev().map(NodeIndex::index).collect()
+        let passed = passed(&self.standing(stands), [self.entry, self.exit]);
+        passed.into_iter().filter(|node| !ends.contains(node)).map(NodeIndex::index).collect()
     }
+}
+
+/// Machines that every item passes on its way from where items enter to where they leave, but for these, in the order in
+/// which it does; machines by their numbers, and which leads to which.
+pub fn single_points(
+    leads_to: impl IntoIterator<Item = [usize; 2]>,
+    enters: &[usize],
+    leaves: &[usize],
+) -> Vec<usize> {
+    let [entry, exit] = [0, 1];
+    let node = |machine: usize| machine as u32 + 2;
+    let inner = leads_to.into_iter().map(|[from, to]| (node(from), node(to)));
+    let ends = enters.iter().map(|machine| (entry, node(*machine)));
+    let ends = ends.chain(leaves.iter().map(|machine| (node(*machine), exit)));
+    let graph: DiGraph<(), ()> = DiGraph::from_edges(inner.chain(ends));
+    if graph.node_count() == 0 {
+        return Vec::new();
+    }
+    let passed = passed(&graph, [entry, exit].map(NodeIndex::from)).into_iter();
+    let machines = passed.map(|node| node.index() - 2);
+    machines.filter(|machine| !enters.contains(machine) && !leaves.contains(machine)).collect()
+}
+
+/// The nodes on all ways from one to another one, in their order.
+fn passed<G>(graph: G, [from, to]: [NodeIndex; 2]) -> Vec<NodeIndex>
+where
+    G: IntoNeighbors<NodeId = NodeIndex> + Visitable<NodeId = NodeIndex>,
+{
+    let dominators = dominators::simple_fast(graph, from);
+    let mut passed: Vec<NodeIndex> = dominators.strict_dominators(to).into_iter().flatten().collect();
+    passed.retain(|node| *node != from);
+    passed.reverse();
+    passed
 }
 
 /// What a search from a node finds.

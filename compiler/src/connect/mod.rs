@@ -13,6 +13,7 @@ mod verdict;
 #[cfg(test)]
 mod tests;
 
+pub use flow::single_points;
 pub use near::Ground;
 
 use crate::device::Placed;

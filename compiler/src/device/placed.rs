@@ -98,7 +98,7 @@ impl Placed {
                     Some(part) => Diagnostic::new("E0711", part, message).other(place, "for this machine"),
                     None => Diagnostic::new("E0711", place, message).other(self.device.place, "the device"),
                 };
-                Err(vec![diagnostic.help("change the device, or the values of the machine in the layout")])
+                Err(vec![diagnostic.help(misfit.fix)])
             }
         }
     }

@@ -7,7 +7,7 @@ use crate::layout::decode::listing;
 use crate::scenario::Scenario;
 use runtime_sim::line::{self, Goal, Line};
 use runtime_sim::part::Primitive;
-use runtime_sim::plant::Transfer;
+use runtime_sim::plant::{By, Transfer};
 use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};
 
@@ -36,7 +36,7 @@ pub fn out_of_reach(
     let lacking = asked.flat_map(|(collected, written)| {
         let kinds = (0..line.kinds.len()).filter(|kind| collected.items[*kind] > 0);
         let missed = kinds.filter(|kind| !comes_to(line, &reached, collected, *kind));
-        missed.map(|kind| diagnostic(line, &reached, kind, written)).collect::<Vec<_>>()
+        missed.map(|kind| diagnostic(line, transfers, &reached, kind, written)).collect::<Vec<_>>()
     });
     lacking.collect()
 }
@@ -135,8 +135,12 @@ fn reached(
         }
     }
     // In a long line everything gets nearly everywhere.
-    let mut leads_to: HashMap<(usize, usize), Vec<(usize, usize)>> = HashMap::new();
-    transfers.iter().for_each(|transfer| leads_to.entry(transfer.from).or_default().push(transfer.to));
+    let mut leads_to: HashMap<(usize, usize), Vec<&Transfer>> = HashMap::new();
+    transfers.iter().for_each(|transfer| leads_to.entry(transfer.from).or_default().push(transfer));
+    let onto = |(machine, part): (usize, usize)| match line.machines[machine].parts[part].primitive {
+        Primitive::Lane(_) => Spot::Lane(machine, part),
+        _ => Spot::Machine(machine),
+    };
     let mut hands_to = vec![Vec::new(); line.machines.len()];
     edges.iter().for_each(|edge| hands_to[edge.from].push(edge.to));
     let mut reached = HashSet::new();
@@ -151,7 +155,8 @@ fn reached(
         let machine = match spot {
             Spot::Lane(machine, part) => {
                 let next = leads_to.get(&(machine, part)).into_iter().flatten();
-                open.extend(next.map(|(machine, part)| (Spot::Lane(*machine, *part), kind)));
+                let next = next.filter(|transfer| transfer.kinds.contains(&kind));
+                open.extend(next.map(|transfer| (onto(transfer.to), kind)));
                 open.push((Spot::Machine(machine), kind));
                 machine
             }
@@ -178,8 +183,37 @@ fn made_of(line: &Line, machine: usize, kind: usize) -> impl Iterator<Item = usi
     made.filter_map(|[_, to]| line.kinds.iter().position(|kind| kind.name == to))
 }
 
+/// The conveyors at the end of which a kind falls onto neither a conveyor nor a place.
+fn open_ends(
+    line: &Line,
+    transfers: &[Transfer],
+    reached: &HashSet<(Spot, usize)>,
+    kind: usize,
+) -> Vec<String> {
+    let mut ends = Vec::new();
+    for (number, machine) in line.machines.iter().enumerate() {
+        for (part, of) in machine.parts.iter().enumerate() {
+            let has_sink = || {
+                let mut parts = machine.parts.iter();
+                parts.any(|other| matches!(&other.primitive, Primitive::Sink(sink) if sink.lane == part))
+            };
+            let goes_on = |transfer: &Transfer| {
+                transfer.from == (number, part) && transfer.by != By::Branch && transfer.kinds.contains(&kind)
+            };
+            if reached.contains(&(Spot::Lane(number, part), kind))
+                && !has_sink()
+                && !transfers.iter().any(goes_on)
+            {
+                ends.push(format!("{}.{}", machine.name, of.name));
+            }
+        }
+    }
+    ends
+}
+
 fn diagnostic(
     line: &Line,
+    transfers: &[Transfer],
     reached: &HashSet<(Spot, usize)>,
     kind: usize,
     written: &crate::scenario::Collected<crate::source::Spanned<String>>,
@@ -209,7 +243,19 @@ fn diagnostic(
             ))
         };
     }
-    diagnostic.note(format!("machines that a `{name}` can get to: {}", listing(&passed))).help(
+    let ends = open_ends(line, transfers, reached, kind);
+    let diagnostic = diagnostic.note(format!("machines that a `{name}` can get to: {}", listing(&passed)));
+    let diagnostic = match ends.is_empty() {
+        true => diagnostic,
+        false => {
+            let ends: Vec<&str> = ends.iter().map(String::as_str).collect();
+            diagnostic.note(format!(
+                "beyond the end of {} it falls onto neither a conveyor nor a place",
+                listing(&ends)
+            ))
+        }
+    };
+    diagnostic.help(
         "let a conveyor begin where the one before it ends, or name a sink after these machines in the goal",
     )
 }

@@ -24,9 +24,11 @@ use crate::layout::{MayTouch, Reading};
 use crate::scenario::Drawn;
 use crate::source::{FileId, Sources};
 use crate::{connect, ir};
-use runtime_sim::line::Supply;
+use runtime_sim::line::{Goal, Supply};
+use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
 use runtime_sim::plant::{By, Transfer};
+use std::collections::HashSet;
 
 /// What is to be compiled; every text is in `sources` already, and the layout is read.
 #[derive(Clone, Debug)]
@@ -107,7 +109,7 @@ pub struct Verdict {
     pub apart: Vec<Apart>,
 }
 
-/// From one conveyor to another one, each as `belt.lane`.
+/// From one conveyor to another one, or by a fall to a place, each as `belt.lane`.
 #[derive(Clone, Debug)]
 pub struct Passage {
     pub from: String,
@@ -159,9 +161,15 @@ impl Verdict {
             format!("{}.{}", machine.name, machine.parts[part].name)
         };
         let passage =
-            |Transfer { from, to, by }: &Transfer| Passage { from: name(*from), to: name(*to), by: *by };
+            |Transfer { from, to, by, .. }: &Transfer| Passage { from: name(*from), to: name(*to), by: *by };
         self.passages = transfers.iter().map(passage).collect();
         self.losses = collected::losses(line, edges, transfers);
+        // What nobody hands over to may have its items from a conveyor.
+        let has_source = |machine: usize| line.machines[machine].has("source");
+        let fed = transfers.iter().filter(|transfer| transfer.from.0 != transfer.to.0);
+        let fed: HashSet<&String> =
+            fed.map(|t| t.to.0).filter(|to| !has_source(*to)).map(|to| &line.machines[to].name).collect();
+        self.sources.retain(|source| !fed.contains(source));
         for (number, machine) in line.machines.iter().enumerate() {
             for (part, of) in machine.parts.iter().enumerate() {
                 match of.primitive {
@@ -173,6 +181,32 @@ impl Verdict {
                 }
             }
         }
+        self.single_points = self.single_points(line, edges, transfers);
+    }
+
+    fn single_points(
+        &self,
+        line: &runtime_sim::line::Line,
+        edges: &[connect::Edge],
+        transfers: &[Transfer],
+    ) -> Vec<String> {
+        let those = |wanted: &dyn Fn(&Machine) -> bool| -> Vec<usize> {
+            let machines = line.machines.iter().enumerate();
+            machines.filter(|(_, machine)| wanted(machine)).map(|(number, _)| number).collect()
+        };
+        let named = |names: &[String]| {
+            let names: HashSet<&String> = names.iter().collect();
+            those(&|machine| names.contains(&machine.name))
+        };
+        let leaves: Vec<usize> = match &line.scenario.goal {
+            Goal::Collected(sinks) => sinks.iter().map(|sink| sink.machine).collect(),
+            _ if self.destinations.is_empty() => those(&|machine| machine.has("sink")),
+            Goal::AllOrders | Goal::TimeLimit => named(&self.destinations),
+        };
+        let handovers = edges.iter().map(|edge| [edge.from, edge.to]);
+        let conveyed = transfers.iter().map(|transfer| [transfer.from.0, transfer.to.0]);
+        let passed = connect::single_points(handovers.chain(conveyed), &named(&self.sources), &leaves);
+        passed.into_iter().map(|machine| line.machines[machine].name.clone()).collect()
     }
 }
 

@@ -26,7 +26,7 @@ pub const SCHEMA: Schema = Schema {
             Setting::new("length", Form::Positive, "m", "along its middle line").optional(),
             Setting::new("turn", Form::Number, "deg", "turn to the left over its length; without it, it is straight")
                 .optional(),
-            Setting::new("rise", Form::Number, "m", "height of its end over its beginning; less than 0 for a chute").optional(),
+            Setting::new("rise", Form::Number, "m", "height of its end over its beginning; less than 0 for a chute, and less than the length up or down").optional(),
             Setting::new("along", Form::Axis, "", "axis of the world along which it lies").optional(),
             Setting::new("range", Form::Range, "m", "both ends along this axis, in the world").optional(),
             Setting::new("surface", Form::Point, "m", "a point of its middle line").optional(),

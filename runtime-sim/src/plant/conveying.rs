@@ -6,6 +6,7 @@
 mod ahead;
 mod branch;
 mod gap;
+mod landing;
 mod spot;
 #[cfg(test)]
 mod tests;
@@ -54,10 +55,27 @@ pub struct Among<'a> {
     pub items: &'a mut Items,
 }
 
-impl Among<'_> {
-    fn lane(&self, track: &Track) -> &Moving {
+/// The same, to be looked at.
+#[derive(Clone, Copy)]
+pub struct View<'a> {
+    pub machines: &'a [Working],
+    pub items: &'a Items,
+}
+
+impl<'a> View<'a> {
+    fn lane(self, track: &Track) -> &'a Moving {
         let lane = self.machines[track.machine].lane(track.part);
         lane.unwrap_or_else(|| unreachable!("a track is of a lane"))
+    }
+}
+
+impl Among<'_> {
+    fn view(&self) -> View<'_> {
+        View { machines: self.machines, items: self.items }
+    }
+
+    fn lane(&self, track: &Track) -> &Moving {
+        self.view().lane(track)
     }
 
     fn lane_mut(&mut self, track: &Track) -> &mut Moving {
@@ -115,10 +133,10 @@ impl Conveying {
         })
     }
 
-    /// Whether items are still to appear on a lane that moves.
-    pub fn is_busy(&self, machines: &[Working]) -> bool {
-        let mut lanes = self.tracks.iter().filter(|track| track.feed.as_ref().is_some_and(|f| f.is_open()));
-        lanes.any(|track| machines[track.machine].lane(track.part).is_some_and(Moving::is_moving))
+    /// Whether an item will appear even if no output changes.
+    pub fn is_busy(&self, view: View, now_ms: u64) -> bool {
+        let appears = |track| tracks::feed_ms(&self.tracks, track, view, now_ms as f64).is_finite();
+        (0..self.tracks.len()).any(appears)
     }
 
     /// Takes note of drives, cylinders and items that have changed by the start of a scan.
@@ -197,7 +215,7 @@ impl Conveying {
 
     /// At the beginning of a lane.
     fn has_room(&self, among: &Among, track: usize, rider: &Rider, ms: f64) -> bool {
-        Spot::at_beginning(&self.tracks, among, track, rider).free_ms(&self.tracks, among, ms) <= ms
+        Spot::at_beginning(&self.tracks, among, track, rider).free_ms(&self.tracks, among.view(), ms) <= ms
     }
 
     fn pass(&self, among: &mut Among, ms: f64, from: usize, item: usize, goes: Goes) {

@@ -46,6 +46,11 @@ impl CentreLine {
                 let (from, length) = (settings.upright("from")?, settings.positive("length")?);
                 let turn = settings.optional("turn", Settings::number)?.unwrap_or(0.0);
                 let rise = settings.optional("rise", Settings::number)?.unwrap_or(0.0);
+                if rise.abs() >= length {
+                    return Err(format!(
+                        "it rises by {rise:.3} m over a length of {length:.3} m along its middle line"
+                    ));
+                }
                 if turn.abs() > 360.0 {
                     return Err("it turns by more than 360 degrees".into());
                 }

@@ -184,7 +184,7 @@ fn next_ms(tracks: &[Track], among: &Among, entries: &[Entry], ms: f64) -> f64 {
             comes_to(lane.lane().centre_line.end() + rider.half);
         }
         for onto in track.branches.iter().filter_map(|branch| branch.takes(rider, entry.place, ms)) {
-            next = next.min(Spot::at_beginning(tracks, among, onto, rider).free_ms(tracks, among, ms));
+            next = next.min(Spot::at_beginning(tracks, among, onto, rider).free_ms(tracks, among.view(), ms));
         }
         for limit in &entry.limits {
             next = next.min(meets(entry, *limit, entries, lane, ms));
@@ -193,7 +193,7 @@ fn next_ms(tracks: &[Track], among: &Among, entries: &[Entry], ms: f64) -> f64 {
     let others = tracks.iter().enumerate().map(|(index, track)| {
         let carriages = track.branches.iter().map(|branch| &branch.stops).chain(&track.carried);
         let branches = carriages.map(|stops| stops.next_ms(ms));
-        let feed = tracks::feed_ms(tracks, index, among, ms);
+        let feed = tracks::feed_ms(tracks, index, among.view(), ms);
         branches.fold(if feed > ms + AT_ONCE { feed } else { f64::INFINITY }, f64::min)
     });
     others.fold(next, f64::min)

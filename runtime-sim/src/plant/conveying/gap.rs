@@ -1,6 +1,6 @@
 //! Ends of conveyors that nearly meet.
 
-use super::tracks::{centre_lines, joins};
+use super::tracks::joins;
 use crate::frame::Frame;
 use crate::line::Line;
 use crate::part::Primitive;
@@ -41,7 +41,7 @@ pub fn gaps(line: &Line) -> Vec<Gap> {
         for (part, of) in machine.parts.iter().enumerate() {
             if let Primitive::Lane(lane) = &of.primitive {
                 let lines: Vec<CentreLine> =
-                    centre_lines(machine, lane).into_iter().map(|(_, line)| line).collect();
+                    machine.centre_lines(lane).into_iter().map(|(_, line)| line).collect();
                 lanes.push(((number, part), lines, ends_in_a_sink(line, number, part)));
             }
         }

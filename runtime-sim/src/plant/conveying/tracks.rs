@@ -3,14 +3,13 @@
 use super::super::working::Working;
 use super::branch::{Branch, Kind, Stops};
 use super::spot::Spot;
-use super::{AT_ONCE, Among, Goes, SAME};
+use super::{AT_ONCE, Among, Goes, SAME, View};
 use crate::carrier::Carrier;
 use crate::line::Line;
 use crate::machine::Machine;
 use crate::part::Primitive;
 use crate::part::lane::{CentreLine, Lane, Rider};
 use crate::part::source::{self, Spawn};
-use crate::part::stroke::Strokes;
 
 /// A lane with all that stands at it. Places are those of its centre line.
 #[derive(Clone, Debug)]
@@ -39,6 +38,11 @@ impl Track {
     /// Whether that one begins where this one ends, at some stop of what carries them.
     pub fn leads_onto(&self, other: usize) -> bool {
         self.joints.iter().any(|joint| joint.onto == other)
+    }
+
+    /// Whether nothing ever falls at its end.
+    pub fn is_always_joined(&self) -> bool {
+        self.joints.iter().any(|joint| joint.when == [None, None])
     }
 }
 
@@ -72,11 +76,6 @@ pub struct Feed {
 }
 
 impl Feed {
-    /// Items are still to appear.
-    pub fn is_open(&self) -> bool {
-        !self.supply.is_empty()
-    }
-
     /// Takes note of how many items were asked for; whether that has changed.
     pub fn look(&mut self, machine: &Working) -> bool {
         let asked = machine.asked(self.part);
@@ -101,7 +100,7 @@ pub fn tracks(line: &Line) -> Vec<Track> {
     };
     let places: Vec<(usize, usize)> = lanes().map(|(machine, part, _)| (machine, part)).collect();
     let centre_lines: Vec<Vec<(Option<usize>, CentreLine)>> =
-        lanes().map(|(machine, _, lane)| centre_lines(&line.machines[machine], lane)).collect();
+        lanes().map(|(machine, _, lane)| line.machines[machine].centre_lines(lane)).collect();
     let number = |machine: usize, part: usize| places.iter().position(|place| *place == (machine, part));
     let track = |(index, (machine, part, lane)): (usize, (usize, usize, &Lane))| Track {
         machine,
@@ -117,16 +116,6 @@ pub fn tracks(line: &Line) -> Vec<Track> {
         half_widths: line.kinds.iter().map(|kind| lane.lengths_of(kind.size)[1] / 2.0).collect(),
     };
     lanes().enumerate().map(track).collect()
-}
-
-/// Where a lane lies: at each stop of its cylinder or positioner, if it is on one.
-pub fn centre_lines(machine: &Machine, lane: &Lane) -> Vec<(Option<usize>, CentreLine)> {
-    let Some(Strokes { stroke, stops, .. }) = lane.on.and_then(|part| machine.parts[part].strokes()) else {
-        return vec![(None, lane.centre_line)];
-    };
-    let moved =
-        |out: f64| stroke.map_or(lane.centre_line, |stroke| lane.centre_line.moved(stroke.frame(out)));
-    stops.iter().enumerate().map(|(stop, out)| (Some(stop), moved(*out))).collect()
 }
 
 /// The lanes on which a lane continues.
@@ -284,7 +273,7 @@ impl Track {
 
 /// Items appear on a lane whose time has come, as soon as there is room.
 pub fn appear(tracks: &mut [Track], index: usize, among: &mut Among, ms: f64) {
-    while feed_ms(tracks, index, among, ms) <= ms + AT_ONCE {
+    while feed_ms(tracks, index, among.view(), ms) <= ms + AT_ONCE {
         let track = &mut tracks[index];
         let lane = among.lane(track);
         let (centre_line, machine, part) = (lane.lane().centre_line, track.machine, track.part);
@@ -302,11 +291,11 @@ pub fn appear(tracks: &mut [Track], index: usize, among: &mut Among, ms: f64) {
 }
 
 /// When the next item appears on a lane, if all continues as it does, ms; infinity: never.
-pub fn feed_ms(tracks: &[Track], index: usize, among: &Among, ms: f64) -> f64 {
+pub fn feed_ms(tracks: &[Track], index: usize, view: View, ms: f64) -> f64 {
     let track = &tracks[index];
     let Some(feed) = &track.feed else { return f64::INFINITY };
     let Some(next) = feed.supply.last() else { return f64::INFINITY };
-    let lane = among.lane(track);
+    let lane = view.lane(track);
     let is_asked_for = feed.asked.is_some_and(|asked| asked > feed.spawned);
     if !is_asked_for && (feed.asked.is_some() || !lane.is_moving()) {
         return f64::INFINITY;
@@ -318,7 +307,7 @@ pub fn feed_ms(tracks: &[Track], index: usize, among: &Among, ms: f64) -> f64 {
     if due_ms > ms + AT_ONCE {
         return due_ms;
     }
-    let half = track.halves[among.items[*next].kind];
+    let half = track.halves[view.items[*next].kind];
     let spot = Spot { track: index, place: feed.place, item: *next, half };
-    spot.free_ms(tracks, among, ms).max(due_ms)
+    spot.free_ms(tracks, view, ms).max(due_ms)
 }

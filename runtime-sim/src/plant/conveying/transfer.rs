@@ -1,16 +1,20 @@
 //! Where items of each conveyor may get from there, whatever is commanded.
 
 use super::branch::Kind;
-use super::tracks::{ALIGNED, JOINED, Track, apart, centre_lines, tracks};
+use super::landing::Ground;
+use super::tracks::{ALIGNED, JOINED, Track, apart, tracks};
 use crate::line::Line;
 use crate::part::Primitive;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// From one conveyor to another one; machine and part of each.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// From one conveyor to another one, or by a fall to a place; machine and part of each.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Transfer {
     pub from: (usize, usize),
     pub to: (usize, usize),
     pub by: By,
+    /// Those that go so.
+    pub kinds: Vec<usize>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,35 +24,60 @@ pub enum By {
     Joint { margin: [f64; 2] },
     /// A diverter or a pusher.
     Branch,
-    /// One ends over the other one.
+    /// Half of an item beyond the end of one, the other one is below.
     Fall,
 }
-
-/// Beyond the end of a conveyor, where the middle of an item may be that falls there, m.
-const FALLS_AT: [f64; 5] = [0.0, 0.1, 0.2, 0.4, 0.8];
 
 /// All transfers of a line, in the order of their conveyors.
 pub fn transfers(line: &Line) -> Vec<Transfer> {
     let tracks = tracks(line);
+    let ground = Ground::new(line);
+    let all: Vec<usize> = (0..line.kinds.len()).collect();
     let mut transfers = Vec::new();
     for track in &tracks {
         let from = (track.machine, track.part);
+        let before = transfers.len();
         for (number, other) in tracks.iter().enumerate() {
             let to = (other.machine, other.part);
             let ends = track.sink.is_none() && to != from;
-            let joint = (ends && track.leads_onto(number)).then(|| margin(line, from, to)).flatten();
-            if let Some(margin) = joint {
-                transfers.push(Transfer { from, to, by: By::Joint { margin } });
+            if ends
+                && track.leads_onto(number)
+                && let Some(margin) = margin(line, from, to)
+            {
+                transfers.push(Transfer { from, to, by: By::Joint { margin }, kinds: all.clone() });
             }
             if branches_onto(track, number) {
-                transfers.push(Transfer { from, to, by: By::Branch });
+                transfers.push(Transfer { from, to, by: By::Branch, kinds: all.clone() });
             }
-            if ends && joint.is_none() && is_over(line, from, to) {
-                transfers.push(Transfer { from, to, by: By::Fall });
+        }
+        let own = transfers[before..].iter();
+        let joined: Vec<_> = own.filter(|own| own.by != By::Branch).map(|own| own.to).collect();
+        for (to, kinds) in falls(line, track, &ground) {
+            if !joined.contains(&to) {
+                transfers.push(Transfer { from, to, by: By::Fall, kinds });
             }
         }
     }
     transfers
+}
+
+/// Onto what the items fall of which kinds that come to the end of a conveyor.
+fn falls(line: &Line, track: &Track, ground: &Ground) -> BTreeMap<(usize, usize), Vec<usize>> {
+    let mut falls: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+    if track.sink.is_some() || track.is_always_joined() {
+        return falls;
+    }
+    let machine = &line.machines[track.machine];
+    let Primitive::Lane(lane) = &machine.parts[track.part].primitive else { return falls };
+    let lines = machine.centre_lines(lane);
+    for (kind, half) in track.halves.iter().enumerate() {
+        let ends = lines.iter().map(|(_, line)| line.point(line.end() - half, 0.0));
+        let onto: BTreeSet<_> = ends.flat_map(|end| ground.under(end)).collect();
+        for to in onto.into_iter().filter(|to| *to != (track.machine, track.part)) {
+            falls.entry(to).or_default().push(kind);
+        }
+    }
+    falls
 }
 
 fn branches_onto(track: &Track, number: usize) -> bool {
@@ -61,7 +90,7 @@ fn branches_onto(track: &Track, number: usize) -> bool {
 /// What is left at the best of the joints of two conveyors.
 fn margin(line: &Line, from: (usize, usize), to: (usize, usize)) -> Option<[f64; 2]> {
     let lines = |(machine, part): (usize, usize)| match &line.machines[machine].parts[part].primitive {
-        Primitive::Lane(lane) => centre_lines(&line.machines[machine], lane),
+        Primitive::Lane(lane) => line.machines[machine].centre_lines(lane),
         _ => Vec::new(),
     };
     let begins = lines(to);
@@ -73,20 +102,4 @@ fn margin(line: &Line, from: (usize, usize), to: (usize, usize)) -> Option<[f64;
     });
     let joined = margins.filter(|margin| margin.iter().all(|left| *left >= 0.0));
     joined.max_by(|a, b| a[0].total_cmp(&b[0]))
-}
-
-/// Whether a conveyor ends over another one.
-fn is_over(line: &Line, from: (usize, usize), to: (usize, usize)) -> bool {
-    let lane = |(machine, part): (usize, usize)| match &line.machines[machine].parts[part].primitive {
-        Primitive::Lane(lane) => Some((centre_lines(&line.machines[machine], lane), lane.width)),
-        _ => None,
-    };
-    let (Some((above, _)), Some((below, width))) = (lane(from), lane(to)) else { return false };
-    above.iter().any(|(_, line)| {
-        let mut points = FALLS_AT.iter().map(|beyond| line.point(line.end() - beyond, 0.0));
-        points.any(|point| {
-            let mut places = below.iter().filter_map(|(_, under)| under.find(point));
-            places.any(|(_, across)| across.abs() <= width)
-        })
-    })
 }

@@ -1,0 +1,144 @@
+//! What stands at the lanes of a machine, and whether it can be there.
+
+use super::{Machine, Misfit, ROUNDED};
+use crate::part::lane::{CentreLine, Lane};
+use crate::part::stroke::Strokes;
+use crate::part::{Part, Primitive};
+use crate::point::Point;
+
+/// What a pusher or a diverter brings over lies beside its lane: the middle lines are apart by half of both widths, and by
+/// this much more for what frames them, m.
+const FRAMES: f64 = 0.1;
+/// The other lane may begin so far above, m: as far as lanes that are joined.
+const STEP: f64 = 0.005;
+
+/// A pusher or a diverter.
+struct Branch {
+    lane: usize,
+    at: f64,
+    onto: usize,
+}
+
+impl Machine {
+    /// Where a lane lies: at each stop of its cylinder or positioner, by the number of the stop, if it is on one.
+    pub fn centre_lines(&self, lane: &Lane) -> Vec<(Option<usize>, CentreLine)> {
+        let Some(Strokes { stroke, stops, .. }) = lane.on.and_then(|part| self.parts[part].strokes()) else {
+            return vec![(None, lane.centre_line)];
+        };
+        let moved =
+            |out: f64| stroke.map_or(lane.centre_line, |stroke| lane.centre_line.moved(stroke.frame(out)));
+        stops.iter().enumerate().map(|(stop, out)| (Some(stop), moved(*out))).collect()
+    }
+
+    /// Whether a lane is over the floor; whether what stands at a lane stands beside it, and beside the lane onto which it
+    /// brings items.
+    pub(super) fn check_on_lanes(&self, index: usize) -> Result<(), Misfit> {
+        let part = &self.parts[index];
+        let of_part = |reason| Misfit::of(index, reason);
+        self.check_beside(part).map_err(of_part)?;
+        match &part.primitive {
+            Primitive::Lane(lane) => self.check_over_floor(&part.name, lane).map_err(of_part),
+            Primitive::Sink(sink) => self.check_only_sink(index, sink.lane),
+            Primitive::Diverter(d) => {
+                self.check_branch(index, &Branch { lane: d.lane, at: d.at, onto: d.onto })
+            }
+            Primitive::Pusher(p) => {
+                self.check_branch(index, &Branch { lane: p.lane, at: p.at, onto: p.onto })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn check_over_floor(&self, name: &str, lane: &Lane) -> Result<(), String> {
+        for (_, line) in self.centre_lines(lane) {
+            for (place, verb) in [(line.begin(), "begins"), (line.end(), "ends")] {
+                let height = line.point(place, 0.0).z;
+                if height < -ROUNDED {
+                    return Err(format!("{name} {verb} {:.3} m below the floor", -height));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The first sink on the way takes all items.
+    fn check_only_sink(&self, index: usize, lane: usize) -> Result<(), Misfit> {
+        let mut before = self.parts[..index].iter();
+        let other = before.find(|o| matches!(&o.primitive, Primitive::Sink(sink) if sink.lane == lane));
+        let Some(other) = other else { return Ok(()) };
+        let (name, lane) = (&self.parts[index].name, &self.parts[lane].name);
+        let reason =
+            format!("{} and {name} are both a sink of {lane}: one of them takes all items", other.name);
+        Err(Misfit::of(index, reason).fix(
+            "take one of them out, or let a diverter or a pusher lead to another lane with the other one",
+        ))
+    }
+
+    fn lane_of(&self, part: usize) -> Option<&Lane> {
+        match &self.parts.get(part)?.primitive {
+            Primitive::Lane(lane) => Some(lane),
+            _ => None,
+        }
+    }
+
+    fn check_beside(&self, part: &Part) -> Result<(), String> {
+        let (lane, at, from) = match &part.primitive {
+            Primitive::Beam(beam) => (beam.lane, beam.at, "beginning"),
+            Primitive::Gauge(gauge) => (gauge.lane, gauge.at, "beginning"),
+            Primitive::Stopper(stopper) => (stopper.lane, stopper.at, "beginning"),
+            Primitive::Diverter(diverter) => (diverter.lane, diverter.at, "beginning"),
+            Primitive::Pusher(pusher) => (pusher.lane, pusher.at, "beginning"),
+            Primitive::Source(source) => (source.lane, source.inset, "beginning"),
+            Primitive::Sink(sink) => (sink.lane, sink.inset, "end"),
+            _ => return Ok(()),
+        };
+        let Some(lane) = self.lane_of(lane) else { return Ok(()) };
+        let length = lane.centre_line.length();
+        if !(-ROUNDED..=length + ROUNDED).contains(&at) {
+            return Err(format!("{} is {at:.3} m from the {from} of a lane of {length:.3} m", part.name));
+        }
+        Ok(())
+    }
+
+    fn check_branch(&self, index: usize, branch: &Branch) -> Result<(), Misfit> {
+        let name = &self.parts[index].name;
+        if branch.lane == branch.onto {
+            let reason = format!("{name} brings items from {0} onto {0}", self.parts[branch.onto].name);
+            return Err(Misfit::of(index, reason).fix("let it bring them onto another lane"));
+        }
+        let (Some(lane), Some(onto)) = (self.lane_of(branch.lane), self.lane_of(branch.onto)) else {
+            return Ok(());
+        };
+        let farthest = (lane.width + onto.width) / 2.0 + FRAMES;
+        let at = |line: CentreLine, place: f64| line.point(place, 0.0);
+        let begins = self.centre_lines(onto).into_iter().map(|(_, line)| at(line, line.begin()));
+        let begins: Vec<Point> = begins.collect();
+        let places = self.centre_lines(lane).into_iter();
+        let places = places.map(|(_, line)| at(line, line.begin() - branch.at));
+        let pairs = places.flat_map(|place| begins.iter().map(move |begin| [place, *begin]));
+        let is_beside = |pair: [Point; 2]| beside(pair) <= farthest + ROUNDED;
+        let is_level = |[place, begin]: [Point; 2]| begin.z - place.z <= STEP + ROUNDED;
+        let mut nearest: Option<[Point; 2]> = None;
+        for pair in pairs {
+            if is_beside(pair) && is_level(pair) {
+                return Ok(());
+            }
+            nearest = nearest.filter(|other| beside(*other) <= beside(pair)).or(Some(pair));
+        }
+        let Some(pair @ [place, begin]) = nearest else { return Ok(()) };
+        let off = match is_beside(pair) {
+            true => format!("{:.3} m higher: {STEP:.3} m are the most", begin.z - place.z),
+            false => format!("{:.3} m beside it: {farthest:.3} m are the most", beside(pair)),
+        };
+        let [place, begin] = [place, begin].map(|Point { x, y, z }| format!("({x:.3}, {y:.3}, {z:.3})"));
+        let onto = &self.parts[branch.onto].name;
+        let reason = format!("{name} at {place} brings items onto {onto}, which begins at {begin}, {off}");
+        Err(Misfit::of(index, reason)
+            .fix("let the other lane begin beside the place at `at`, and no higher; or change `at`"))
+    }
+}
+
+/// How far two points are from each other as seen from above, m.
+fn beside([place, begin]: [Point; 2]) -> f64 {
+    libm::hypot(begin.x - place.x, begin.y - place.y)
+}
