@@ -49,6 +49,8 @@ mod side_by_side;
 mod sweep;
 #[path = "command_line/sweep_values.rs"]
 mod sweep_values;
+#[path = "command_line/tests_apart.rs"]
+mod tests_apart;
 #[path = "command_line/tests_of_users.rs"]
 mod tests_of_users;
 #[path = "command_line/trajectories.rs"]

@@ -31,6 +31,8 @@ impl Engine<'_, '_> {
 pub enum Played {
     Passed,
     Failed(Failure),
+    /// Another machine has stopped the line by a fault.
+    Stopped,
     /// The test itself is wrong.
     Wrong(Vec<Diagnostic>),
 }
@@ -90,8 +92,8 @@ pub fn play(system: &System, machine: usize, rows: &[Row], engine: Engine) -> Pl
     let mut bench = Bench::new(system, machine, engine);
     bench.scan(false);
     for (step, target) in steps.iter().zip(targets) {
-        if let Err(failure) = bench.row(step, target) {
-            return Played::Failed(failure);
+        if let Err(played) = bench.row(step, target) {
+            return played;
         }
     }
     Played::Passed

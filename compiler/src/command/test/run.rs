@@ -205,6 +205,11 @@ fn on(
             match testing::play(system, machine, rows, engine) {
                 Played::Passed => Vec::new(),
                 Played::Failed(failure) => vec![failure],
+                Played::Stopped => {
+                    let why =
+                        "another machine, which makes no steps on the executor, stops the line by a fault";
+                    return Ok(Ok(Outcome::Skipped(why)));
+                }
                 Played::Wrong(found) => return Ok(Err(found)),
             }
         }
