@@ -57,3 +57,30 @@ fn a_fault_of_another_machine_is_not_that_of_the_tested_one() {
     assert_eq!(status, 0, "{text}");
     assert!(text.contains("2 passed, 0 failed"), "{text}");
 }
+
+#[test]
+fn who_shares_cells_through_a_reference_is_tested_on_the_executor_only() {
+    let counted =
+        "automaton NAME on pad is Box { initial state Low { when n > 2 -> High {} } final state High; }";
+    let counts = |reference: &str| {
+        format!(
+            "automaton NAME on pad {{
+                {reference}
+                initial state Counting {{ when after 100 ms, box.n < 9 -> Counting {{ box.n += 1; }} }}
+            }}"
+        )
+    };
+    let box_ = "interface Box { shared n: int 0..9 := 0 by counter; }";
+    let named = |text: &str, name: &str| text.replace("NAME", name);
+    let (parameter, local) = (counts("parameter box: Box;"), counts("local box: Box;"));
+    for (name, first, second, parameters, rows) in [
+        ("by_another", counted, parameter.as_str(), ["", r#""box": "m0""#], "1 s: -> Low, n = 0;"),
+        ("to_another", &parameter, counted, [r#""box": "m1""#, ""], "1 s: -> Counting;"),
+        ("by_a_variable", counted, &local, ["", ""], "1 s: -> Low, n = 0;"),
+    ] {
+        let specs = [box_, &named(first, "First"), &named(second, "Second")].join("\n");
+        let (status, text) = outcome(&format!("test_shares_{name}"), &specs, parameters, rows);
+        assert!(text.contains("1 skipped"), "{name}: {text}");
+        assert_eq!(status, 0, "{name}: {text}");
+    }
+}

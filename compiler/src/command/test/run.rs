@@ -151,7 +151,7 @@ fn one(
         && testing::instance(system, &name.value, name.span)
             .is_ok_and(|machine| !testing::is_for_any_engine(system, machine, rows))
     {
-        let why = "it sets values of other machines, which is possible on the executor only";
+        let why = "it shares values with other machines, which the test plays on the executor only";
         return Ok(Ok(Outcome::Skipped(why)));
     }
     match engine {
