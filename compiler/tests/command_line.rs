@@ -43,6 +43,8 @@ mod replications;
 mod report;
 #[path = "command_line/restarts.rs"]
 mod restarts;
+#[path = "command_line/scenario_of_violation.rs"]
+mod scenario_of_violation;
 #[path = "command_line/side_by_side.rs"]
 mod side_by_side;
 #[path = "command_line/sweep.rs"]
