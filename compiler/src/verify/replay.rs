@@ -9,7 +9,7 @@ use autogen_search::event::{Ending, From, What};
 use autogen_search::model::Model;
 use autogen_search::plant::motion;
 use autogen_search::story::Execution;
-use runtime_sim::line::{Answer, Line, Slip, Supply};
+use runtime_sim::line::{Answer, Goal, Line, Slip, Supply};
 use runtime_sim::plant::{self, Plant};
 use runtime_sim::report::Report;
 use runtime_sim::run::{Stepping, run};
@@ -77,6 +77,7 @@ impl<'a> Director<'a> {
         let mut due = vec![VecDeque::new(); instances];
         let mut commands = vec![0; instances];
         let mut line = project.plant.clone();
+        list_orders(&mut line);
         line.scenario.slips.clear();
         line.scenario.refusals.clear();
         line.scenario.answers.clear();
@@ -135,7 +136,11 @@ impl<'a> Director<'a> {
             .flat_map(|(kind, count)| vec![kind; *count as usize])
             .collect();
         for Supply { belt, items } in &mut line.scenario.supply {
-            *items = [supply[*belt].clone(), wanted.repeat(2)].concat();
+            let more = match line.scenario.goal {
+                Goal::Collected(_) => std::mem::take(items),
+                Goal::AllOrders | Goal::TimeLimit => wanted.repeat(2),
+            };
+            *items = [supply[*belt].clone(), more].concat();
         }
         Self { project, line, marks, due }
     }
@@ -291,6 +296,19 @@ impl<'a> Director<'a> {
             From::OnTheWay => (scan - begun) * u64::from(self.line.scan_ms) >= 400,
         }
     }
+}
+
+/// Orders without end become a list: a scenario has no such orders beside a list of what belts bring. There are as many as
+/// could be made while an execution is followed.
+fn list_orders(line: &mut Line) {
+    let Some(order) = line.scenario.orders.first().filter(|_| line.scenario.goal == Goal::TimeLimit) else {
+        return;
+    };
+    let of_order: u32 = order.parts.iter().sum();
+    let parts = LONGEST_S / APART_S * line.scenario.supply.len() as f64;
+    let stations = line.machines.iter().filter(|machine| machine.has("orders")).count();
+    line.scenario.orders.truncate((parts / f64::from(of_order)).ceil() as usize + stations);
+    line.scenario.goal = Goal::AllOrders;
 }
 
 /// The error in which the command under way ends if what it awaits does not come.

@@ -1,5 +1,6 @@
 //! `verify --counterexample`: the scenario of a violation, and what is said of its run.
 
+use super::sweep::printed;
 use super::*;
 
 /// A line of one machine; its automaton is that of the device `pad`.
@@ -29,6 +30,38 @@ fn simulator(folder: &Path, more: &[&str]) -> String {
     let output = autogen(folder, &[&arguments[..], more].concat());
     assert_eq!(status(&output), 3, "{}", errors(&output));
     json(&output)["violations"][0]["simulator"].as_str().expect("a text").into()
+}
+
+/// Two refusals violate it, the second one after a second.
+fn tries(condition: &str) -> String {
+    format!(
+        "local tries: int 0..9;
+        initial state Waiting {{ when {condition} -> Going {{ go(1); }} }}
+        state Going {{ when failed -> Failed {{ tries += 1; }} }}
+        state Failed {{ when after 1 s -> Going {{ go(1); }} }}
+        invariant tries < 2;"
+    )
+}
+
+#[test]
+fn a_run_of_the_file_ends_as_that_which_was_replayed() {
+    for (name, condition, scenario) in [
+        ("file_without_orders", "after 10 ms", r#"{"time_limit_s": 60}"#),
+        (
+            "file_with_operator",
+            "pressed",
+            r#"{"time_limit_s": 60, "operator": [{"robot": "pad", "part": "start", "at_s": 0.5}]}"#,
+        ),
+    ] {
+        let folder = put(name, &tries(condition), scenario);
+        let said = simulator(&folder, &["--counterexample", "found.json"]);
+        assert!(said.contains("the same transitions have fired") && said.contains("tries < 2"), "{said}");
+        let test =
+            r#"layout "line.json"; scenario "found.json"; test "run" { expect fault "tries < 2" of pad; }"#;
+        fs::write(folder.join("found.test"), test).expect("a file that can be written");
+        let output = autogen(&folder, &["test", "found.test"]);
+        assert_eq!(status(&output), 0, "{name}: {}{}", printed(&output), errors(&output));
+    }
 }
 
 #[test]
