@@ -95,7 +95,7 @@ pub fn run(options: &VerifyOptions) -> Status {
         shown.push(Shown { violation, execution, replay });
     }
     if let (Some(file), Some(first)) = (file, shown.first().and_then(|shown| shown.replay.as_ref().ok())) {
-        let written = file.write(&scenario::text(&first.line)).and_then(|()| file.keep());
+        let written = file.write(&scenario::text(&project.system, &first.line)).and_then(|()| file.keep());
         if let Err(text) = written {
             complain!("autogen: {text}");
             return Status::WrongCommand;

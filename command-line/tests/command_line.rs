@@ -43,12 +43,16 @@ mod replications;
 mod report;
 #[path = "command_line/restarts.rs"]
 mod restarts;
+#[path = "command_line/scenario_of_violation.rs"]
+mod scenario_of_violation;
 #[path = "command_line/side_by_side.rs"]
 mod side_by_side;
 #[path = "command_line/sweep.rs"]
 mod sweep;
 #[path = "command_line/sweep_values.rs"]
 mod sweep_values;
+#[path = "command_line/tests_apart.rs"]
+mod tests_apart;
 #[path = "command_line/tests_of_users.rs"]
 mod tests_of_users;
 #[path = "command_line/trajectories.rs"]

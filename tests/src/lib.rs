@@ -16,6 +16,7 @@ pub mod mutants;
 pub mod outcome;
 pub mod postponing;
 pub mod replay;
+pub mod replayed;
 pub mod sdf;
 pub mod searched;
 pub mod small_lines;

@@ -151,7 +151,7 @@ fn one(
         && testing::instance(system, &name.value, name.span)
             .is_ok_and(|machine| !testing::is_for_any_engine(system, machine, rows))
     {
-        let why = "it sets values of other machines, which is possible on the executor only";
+        let why = "it shares values with other machines, which the test plays on the executor only";
         return Ok(Ok(Outcome::Skipped(why)));
     }
     match engine {
@@ -205,6 +205,11 @@ fn on(
             match testing::play(system, machine, rows, engine) {
                 Played::Passed => Vec::new(),
                 Played::Failed(failure) => vec![failure],
+                Played::Stopped => {
+                    let why =
+                        "another machine, which makes no steps on the executor, stops the line by a fault";
+                    return Ok(Ok(Outcome::Skipped(why)));
+                }
                 Played::Wrong(found) => return Ok(Err(found)),
             }
         }

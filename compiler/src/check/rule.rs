@@ -88,6 +88,8 @@ impl Context<'_, '_> {
         place: &Place,
     ) -> Option<Diagnostic> {
         let possible: Vec<usize> = (0..sides.len()).filter(|v| known.holds(*v as f64)).collect();
+        // Without any value nothing is written: the guard never holds, of which a warning tells.
+        let first = *possible.first()?;
         if possible.iter().any(|v| sides[*v] == side) {
             return None;
         }
@@ -95,8 +97,7 @@ impl Context<'_, '_> {
         let ir::Scalar::Enum(id) = self.checker.model.interfaces[interface.0].cells[*cell].ty.scalar else {
             return None;
         };
-        let value =
-            possible.first().map(|v| self.checker.model.enums[id.0].members[*v].clone()).unwrap_or_default();
+        let value = &self.checker.model.enums[id.0].members[first];
         let who = if side == Side::Owner { "only others may write" } else { "only the owner may write" };
         Some(Diagnostic::new("E0333", span, format!("while the token is `{value}`, {who} `{name}`")).help(
             "wait in the guard for a value that gives the right to write, or change the rule of the token",

@@ -1,6 +1,6 @@
 //! A machine on the bench: its inputs are given, scan by scan, and what it does is checked.
 
-use super::machine::{Engine, Step, Target, Wanted};
+use super::machine::{Engine, Played, Step, Target, Wanted};
 use super::{Failure, Time};
 use crate::device::panel;
 use crate::ir::{Element, Group, KeptBy, Named, System, Value};
@@ -28,6 +28,8 @@ pub(super) struct Bench<'e, 'a, 's> {
     /// Scans since the line was started; the one before is -1.
     now: i64,
     fault: Option<String>,
+    /// Another machine has a fault.
+    is_stopped: bool,
     events: VecDeque<(u64, String)>,
     /// Of the machine, its ports for commands and what its properties keep apart.
     values: Vec<Named>,
@@ -74,6 +76,7 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
             trace: Vec::new(),
             now: -2,
             fault: None,
+            is_stopped: false,
             events: VecDeque::new(),
             values,
             command,
@@ -103,6 +106,8 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
         if !before.is_empty() {
             self.tell_changes(&before);
         }
+        let whose = usize::try_from(answer.fault_robot).ok();
+        self.is_stopped = answer.fault && whose.is_some_and(|machine| machine != self.machine);
         let faults = &self.system.model.faults;
         let site = usize::try_from(answer.fault_code - 1).ok().and_then(|code| faults.get(code));
         let fault = site.filter(|_| answer.fault).map(|site| site.text.clone());
@@ -167,7 +172,7 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
         }
     }
 
-    pub fn row(&mut self, step: &Step, target: Target) -> Result<(), Failure> {
+    pub fn row(&mut self, step: &Step, target: Target) -> Result<(), Played> {
         let (first, last) = match target {
             Target::At(scan) => (scan as i64, scan as i64),
             Target::After(scans) => (self.now.max(-1) + scans as i64, self.now.max(-1) + scans as i64),
@@ -207,7 +212,7 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
                 (true, _) => return Ok(()),
                 (false, true) => {
                     let (expected, found) = wrong.into_iter().unzip();
-                    return Err(self.failure(step.span, expected, found));
+                    return Err(Played::Failed(self.failure(step.span, expected, found)));
                 }
                 (false, false) => {}
             }
@@ -215,12 +220,16 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
     }
 
     /// A scan; a fault that nobody expects ends the test.
-    fn step(&mut self, span: Span, start: bool, takes_fault: bool) -> Result<(), Failure> {
+    fn step(&mut self, span: Span, start: bool, takes_fault: bool) -> Result<(), Played> {
         let had = self.fault.is_some();
         self.scan(start);
+        if self.is_stopped {
+            return Err(Played::Stopped);
+        }
         match self.fault.clone() {
             Some(text) if !had && !takes_fault => {
-                Err(self.failure(span, vec!["no fault".into()], vec![format!("fault: {text}")]))
+                let failure = self.failure(span, vec!["no fault".into()], vec![format!("fault: {text}")]);
+                Err(Played::Failed(failure))
             }
             _ => Ok(()),
         }

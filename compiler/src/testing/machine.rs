@@ -13,7 +13,7 @@ use runtime_sim::scan::Controllers;
 pub enum Engine<'e, 'a> {
     /// Only this machine steps; what it shares with others is written by the test.
     Executor(&'e mut Executor<'a>),
-    /// All machines step: a test of one machine has to be one that [`is_for_any_engine`].
+    /// All machines step: a test of one machine has to be one that [`super::is_for_any_engine`].
     Other(&'e mut dyn Controllers),
 }
 
@@ -31,28 +31,10 @@ impl Engine<'_, '_> {
 pub enum Played {
     Passed,
     Failed(Failure),
+    /// Another machine has stopped the line by a fault.
+    Stopped,
     /// The test itself is wrong.
     Wrong(Vec<Diagnostic>),
-}
-
-/// Whether neither the test nor another machine writes or reads what this machine shares, so that it does the same
-/// if the others step too.
-pub fn is_for_any_engine(system: &System, machine: usize, rows: &[Row]) -> bool {
-    let given = rows.iter().flat_map(|row| &row.given);
-    let plays_device = given.into_iter().all(|given| match given {
-        Given::Value(path, _) => {
-            value::named(system, machine, path).is_ok_and(|named| named.group == Group::Input)
-        }
-        Given::Answer(..) | Given::PowerOff => true,
-    });
-    let knows_others = !system.automaton_of(machine).roles.is_empty();
-    let is_known = (0..system.instances.len()).filter(|other| *other != machine).any(|other| {
-        let roles = system.automaton_of(other).roles.iter().zip(&system.instances[other].roles);
-        roles
-            .into_iter()
-            .any(|(role, rows)| rows.iter().any(|row| system.members[role.interface.0][*row] == machine))
-    });
-    plays_device && !knows_others && !is_known
 }
 
 /// A value that the test writes.
@@ -90,8 +72,8 @@ pub fn play(system: &System, machine: usize, rows: &[Row], engine: Engine) -> Pl
     let mut bench = Bench::new(system, machine, engine);
     bench.scan(false);
     for (step, target) in steps.iter().zip(targets) {
-        if let Err(failure) = bench.row(step, target) {
-            return Played::Failed(failure);
+        if let Err(played) = bench.row(step, target) {
+            return played;
         }
     }
     Played::Passed

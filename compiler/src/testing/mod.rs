@@ -1,6 +1,7 @@
 //! Tests that a user writes beside the specifications: an automaton alone against a table of inputs and of what has
 //! to come of them, and a line with what has to come of its run. `docs/tools.md` has the language.
 
+mod apart;
 mod bench;
 mod line;
 mod machine;
@@ -8,8 +9,9 @@ mod read;
 mod structured_text;
 mod value;
 
+pub use apart::is_for_any_engine;
 pub use line::{Watched, judge};
-pub use machine::{Engine, Played, is_for_any_engine, play};
+pub use machine::{Engine, Played, play};
 pub use read::read;
 pub use structured_text::{Emitted, StructuredText};
 pub use value::instance;

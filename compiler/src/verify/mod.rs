@@ -3,6 +3,7 @@
 mod asked;
 mod automaton;
 mod expression;
+mod followed;
 pub mod gantt;
 mod live;
 mod memory;

@@ -1,17 +1,18 @@
 //! An execution in the simulator: the scenario that brings it about, by what slips, how commands end, and how late
 //! devices answer.
 
-use crate::executor::Executor;
+use super::followed::{Followed, Mark};
 use crate::ir::UpdateKind;
 use crate::lower::Project;
+use autogen_search::Fired;
 use autogen_search::event::{Ending, From, What};
 use autogen_search::model::Model;
 use autogen_search::plant::motion;
 use autogen_search::story::Execution;
-use runtime_sim::line::{Answer, Line, Slip, Supply};
+use runtime_sim::line::{Answer, Goal, Line, Slip, Supply};
 use runtime_sim::plant::{self, Plant};
 use runtime_sim::report::Report;
-use runtime_sim::run::{Seen, Stepping, run};
+use runtime_sim::run::{Stepping, run};
 use runtime_sim::scan::{Controllers, SystemInputs};
 use runtime_sim::wiring::{Drives, Source};
 use std::collections::VecDeque;
@@ -36,14 +37,6 @@ pub struct Replay {
     pub result: Result<f64, String>,
 }
 
-/// What a transition changes that can be seen from outside: the state, and how many commands were given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Mark {
-    scan: usize,
-    state: usize,
-    commands: u32,
-}
-
 /// What devices are to do, in the order of the execution.
 #[derive(Clone, Copy, Debug)]
 struct Due {
@@ -64,56 +57,17 @@ pub fn replay(project: &Project, model: &Model, execution: &Execution) -> Result
     let mut director = Director::new(project, model, execution);
     let result = director.direct();
     let line = director.line.clone();
-    let mut executor = Executor::new(&project.system);
-    let mut follower = Follower::new(&line, executor.stays(), &director.marks);
-    let report = run(&line, &mut executor, Stepping::Events, &mut |seen| follower.look(seen))?;
-    let result = result.and_then(|seconds| {
-        let left = follower.marks.iter().position(|marks| !marks.is_empty());
-        match left.filter(|_| report.fault.is_none()) {
-            Some(_) if report.simulated_s < seconds => Err("before all these events".into()),
-            Some(machine) => {
-                let name = &project.system.instances[machine].name;
-                Err(format!("with these delays {name} does something else"))
-            }
-            None => Ok(seconds),
+    let mut followed = Followed::new(&project.system, &director.marks);
+    let report = run(&line, &mut followed, Stepping::Events, &mut |_| {})?;
+    let result = result.and_then(|seconds| match followed.astray().or(followed.unfinished().next()) {
+        Some(_) if report.simulated_s < seconds => Err("before all these events".into()),
+        Some(machine) => {
+            let name = &project.system.instances[machine].name;
+            Err(format!("with these delays {name} does something else"))
         }
+        None => Ok(seconds),
     });
     Ok(Replay { line, report, result })
-}
-
-/// Whether a run does what the execution says, machine by machine.
-struct Follower {
-    marks: Vec<VecDeque<Mark>>,
-    /// Where the state of each machine stands in the trace, and its number of the last command among its outputs.
-    words: Vec<(usize, Option<usize>)>,
-    last: Vec<(usize, u32, f64)>,
-}
-
-impl Follower {
-    fn new(line: &Line, stays: Vec<usize>, marks: &[Vec<Mark>]) -> Self {
-        let kinds = line.kinds.len();
-        let words = line.machines.iter().zip(stays);
-        Self {
-            marks: marks.iter().map(|marks| marks.iter().copied().collect()).collect(),
-            words: words
-                .map(|(machine, stay)| (stay - 1, machine.wiring.output_at(Drives::Command, kinds)))
-                .collect(),
-            last: vec![(0, 0, 0.0); marks.len()],
-        }
-    }
-
-    fn look(&mut self, seen: &Seen) {
-        for (machine, (state, cmd)) in self.words.iter().enumerate() {
-            let (_, commands, before) = self.last[machine];
-            let number = cmd.map_or(0.0, |cmd| seen.outputs[machine][cmd]);
-            let now = (seen.trace[*state] as usize, commands + u32::from(number != before), number);
-            let is_next = |mark: &&Mark| (mark.state, mark.commands) == (now.0, now.1);
-            if self.last[machine] != now && self.marks[machine].front().filter(is_next).is_some() {
-                self.marks[machine].pop_front();
-            }
-            self.last[machine] = now;
-        }
-    }
 }
 
 impl<'a> Director<'a> {
@@ -123,6 +77,7 @@ impl<'a> Director<'a> {
         let mut due = vec![VecDeque::new(); instances];
         let mut commands = vec![0; instances];
         let mut line = project.plant.clone();
+        list_orders(&mut line);
         line.scenario.slips.clear();
         line.scenario.refusals.clear();
         line.scenario.answers.clear();
@@ -169,12 +124,8 @@ impl<'a> Director<'a> {
                 let gives = |kind: &UpdateKind| matches!(kind, UpdateKind::Command { .. });
                 let given = transition.updates.iter().filter(|update| gives(&update.kind)).count();
                 commands[fired.instance] += given as u32;
-                let state = transition.target.map_or(fired.state, |target| target.0);
-                let mark = Mark { scan, state, commands: commands[fired.instance] };
-                let before = marks[fired.instance].last().map_or((0, 0), |m: &Mark| (m.state, m.commands));
-                if before != (state, mark.commands) {
-                    marks[fired.instance].push(mark);
-                }
+                let Fired { state, transition, .. } = *fired;
+                marks[fired.instance].push(Mark { scan, state, transition });
             }
         }
         let wanted: Vec<usize> = line
@@ -185,7 +136,11 @@ impl<'a> Director<'a> {
             .flat_map(|(kind, count)| vec![kind; *count as usize])
             .collect();
         for Supply { belt, items } in &mut line.scenario.supply {
-            *items = [supply[*belt].clone(), wanted.repeat(2)].concat();
+            let more = match line.scenario.goal {
+                Goal::Collected(_) => std::mem::take(items),
+                Goal::AllOrders | Goal::TimeLimit => wanted.repeat(2),
+            };
+            *items = [supply[*belt].clone(), more].concat();
         }
         Self { project, line, marks, due }
     }
@@ -208,26 +163,24 @@ impl<'a> Director<'a> {
         let scan_ms = u64::from(self.line.scan_ms);
         // Answers are held back here; the scenario that is written says how long.
         let mut plant = Plant::new(&self.line)?;
-        let mut executor = Executor::new(&self.project.system);
+        let mut followed = Followed::new(&self.project.system, &self.marks);
         let mut outputs = plant::outputs(&self.line);
         let mut inputs = plant.images().to_vec();
         let count = inputs.len();
         let kinds = self.line.kinds.len();
         let words: Vec<_> = self.line.machines.iter().map(|machine| Words::new(machine, kinds)).collect();
-        let mut marks: Vec<VecDeque<Mark>> = self.marks.iter().map(|m| m.iter().copied().collect()).collect();
         let mut due = self.due.clone();
-        let mut seen = vec![(0, 0); count];
+        let mut commands = vec![0; count];
         let mut given = vec![0.0; count];
         let mut ended: Vec<Option<u64>> = vec![None; count];
         let mut begun = vec![0_u64; count];
         let mut picks: Vec<(u32, u64)> = vec![(0, 0); count];
         let mut late: Vec<Answer> = known.to_vec();
         for scan in 0..(LONGEST_S * 1000.0) as u64 / scan_ms {
-            let frontier = marks.iter().filter_map(|m| m.front()).map(|mark| mark.scan).min();
-            let Some(frontier) = frontier else {
-                late.retain(|answer| answer.late_s > 0.0 || answer.error.is_some());
-                self.line.scenario.answers = late;
-                return Ok(Some((scan * scan_ms) as f64 / 1000.0));
+            let now_s = (scan * scan_ms) as f64 / 1000.0;
+            let Some(frontier) = followed.frontier() else {
+                self.keep(late);
+                return Ok(Some(now_s));
             };
             // Nobody is told that a command has ended before all that are under way have: what is to happen in one scan
             // can happen then.
@@ -274,7 +227,7 @@ impl<'a> Director<'a> {
                     Some(Due { what: What::Ends(_), .. }) if is_new && all_ended => {
                         due[machine].pop_front();
                         let late_s = ((scan - ended[machine].unwrap_or(scan)) * scan_ms) as f64 / 1000.0;
-                        let command = seen[machine].1;
+                        let command = commands[machine];
                         match late.iter_mut().find(|a| (a.machine, a.command) == (machine, command)) {
                             Some(answer) => answer.late_s = late_s,
                             None => late.push(Answer { machine, command, late_s, error: None }),
@@ -289,7 +242,7 @@ impl<'a> Director<'a> {
             }
             let system =
                 SystemInputs { run_permit: true, start: scan >= self.line.scenario.start_scan, reset: false };
-            let answer = executor.scan(system, &inputs, &mut outputs);
+            let answer = followed.scan(system, &inputs, &mut outputs);
             for machine in 0..count {
                 if let Some([cmd, ..]) = words[machine].head
                     && outputs[machine][cmd] != given[machine]
@@ -298,43 +251,39 @@ impl<'a> Director<'a> {
                     // A command that is replaced before its answer comes.
                     if let Some(end) = ended[machine] {
                         let late_s = ((scan - end) * scan_ms) as f64 / 1000.0 + REPLACED_S;
-                        let command = seen[machine].1;
+                        let command = commands[machine];
                         late.push(Answer { machine, command, late_s, error: None });
                     }
-                    seen[machine].1 += 1;
+                    commands[machine] += 1;
                     begun[machine] = scan;
                     ended[machine] = None;
                 }
-                let now = (executor.state(machine), seen[machine].1);
-                if now == seen[machine] && marks[machine].front().is_none_or(|m| (m.state, m.commands) != now)
-                {
-                    continue;
-                }
-                seen[machine].0 = now.0;
-                match marks[machine].front() {
-                    Some(mark) if (mark.state, mark.commands) == now => {
-                        marks[machine].pop_front();
-                    }
-                    Some(_) => {
-                        let name = &self.project.system.instances[machine].name;
-                        let at = (scan * scan_ms) as f64 / 1000.0;
-                        return Err(format!("{name} does something else at {at:.2} s"));
-                    }
-                    // It has done all that it does in the execution.
-                    None => {}
-                }
+            }
+            if let Some(machine) = followed.astray() {
+                let name = &self.project.system.instances[machine].name;
+                return Err(format!("{name} does something else at {now_s:.2} s"));
             }
             if answer.fault {
-                late.retain(|answer| answer.late_s > 0.0 || answer.error.is_some());
-                self.line.scenario.answers = late;
-                return Ok(Some((scan * scan_ms) as f64 / 1000.0));
+                self.keep(late);
+                return match followed.frontier() {
+                    None => Ok(Some(now_s)),
+                    Some(_) => Err(format!(
+                        "the line stops at {now_s:.2} s, before all these transitions have fired"
+                    )),
+                };
             }
             plant.advance(&outputs);
         }
-        let waits = (0..count).filter(|machine| !marks[*machine].is_empty());
-        let waits: Vec<&str> = waits.map(|m| self.project.system.instances[m].name.as_str()).collect();
+        let waits: Vec<&str> =
+            followed.unfinished().map(|m| self.project.system.instances[m].name.as_str()).collect();
         let verb = if waits.len() == 1 { "waits" } else { "wait" };
         Err(format!("{} {verb} for something that does not come", waits.join(", ")))
+    }
+
+    /// Answers that come at once, and well, need no entry.
+    fn keep(&mut self, answers: Vec<Answer>) {
+        let is_told = |answer: &Answer| answer.late_s > 0.0 || answer.error.is_some();
+        self.line.scenario.answers = answers.into_iter().filter(is_told).collect();
     }
 
     /// Whether an arm is where it is to lose its item.
@@ -347,6 +296,19 @@ impl<'a> Director<'a> {
             From::OnTheWay => (scan - begun) * u64::from(self.line.scan_ms) >= 400,
         }
     }
+}
+
+/// Orders without end become a list: a scenario has no such orders beside a list of what belts bring. There are as many as
+/// could be made while an execution is followed.
+fn list_orders(line: &mut Line) {
+    let Some(order) = line.scenario.orders.first().filter(|_| line.scenario.goal == Goal::TimeLimit) else {
+        return;
+    };
+    let of_order: u32 = order.parts.iter().sum();
+    let parts = LONGEST_S / APART_S * line.scenario.supply.len() as f64;
+    let stations = line.machines.iter().filter(|machine| machine.has("orders")).count();
+    line.scenario.orders.truncate((parts / f64::from(of_order)).ceil() as usize + stations);
+    line.scenario.goal = Goal::AllOrders;
 }
 
 /// The error in which the command under way ends if what it awaits does not come.

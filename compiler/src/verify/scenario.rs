@@ -1,57 +1,102 @@
 //! A scenario of the simulator as a file.
 
-use runtime_sim::line::Line;
+mod faults;
+mod operator;
+
+use crate::ir::System;
+use faults::Faults;
+use runtime_sim::line::{Collected, During, Goal, Kind, Line, Order, Scenario, Supply};
 use serde_json::{Map, Value, json};
 
-/// The scenario of a line, as `commission` reads it.
-pub fn text(line: &Line) -> String {
-    let name = |machine: usize| line.machines[machine].name.as_str();
-    let kind = |kind: usize| line.kinds[kind].name.as_str();
-    let kinds: Vec<Value> = (line.kinds.iter())
-        .map(|k| {
-            let mut value =
-                json!({"name": k.name, "height": k.height, "size": k.size, "is": k.is, "mass": k.mass});
-            if k.grasp != k.height {
-                value["grasp"] = json!(k.grasp);
-            }
-            value
-        })
-        .collect();
-    let orders: Vec<Value> = (line.scenario.orders.iter())
-        .map(|order| {
-            let parts = order.parts.iter().enumerate().filter(|(_, count)| **count > 0);
-            let parts: Map<String, Value> =
-                parts.map(|(number, count)| (kind(number).to_string(), json!(count))).collect();
-            let stations: Vec<&str> = order.stations.iter().map(|station| name(*station)).collect();
-            json!({"station": stations, "parts": parts})
-        })
-        .collect();
-    let items: Map<String, Value> = (line.scenario.supply.iter())
-        .map(|supply| {
-            let items: Vec<&str> = supply.items.iter().map(|item| kind(*item)).collect();
-            (name(supply.belt).to_string(), json!(items))
-        })
-        .collect();
-    let slips: Vec<Value> = (line.scenario.slips.iter())
-        .map(|slip| json!({"robot": name(slip.machine), "pick": slip.pick, "after_s": slip.after_s}))
-        .collect();
-    let answers: Vec<Value> = (line.scenario.answers.iter())
-        .map(|answer| {
-            let mut value =
-                json!({"robot": name(answer.machine), "command": answer.command, "late_s": answer.late_s});
-            if let Some(error) = answer.error {
-                value["error"] = json!(error);
-            }
-            value
-        })
-        .collect();
-    let (first_s, every_s) = (line.scenario.spawn_first_s, line.scenario.spawn_every_s);
-    let scenario = json!({
-        "kinds": kinds,
-        "orders": orders,
-        "supply": {"first_s": first_s, "every_s": every_s, "items": items},
-        "time_limit_s": line.scenario.time_limit_s,
-        "faults": {"slips": slips, "answers": answers},
-    });
+/// The scenario of a line, as `commission` reads it: the line has the same scenario again. Orders without end cannot be
+/// said beside a list of what belts bring, so it must not have such orders.
+pub fn text(system: &System, line: &Line) -> String {
+    // Each part is named: none is forgotten. How long a run may stand still follows from what is asked.
+    let Scenario {
+        goal,
+        orders,
+        supply,
+        spawn_first_s,
+        spawn_every_s,
+        time_limit_s,
+        stall_limit_s: _,
+        start_scan: _,
+        slips,
+        refusals,
+        answers,
+        pauses,
+        power_offs,
+        sensors,
+        jams,
+        slow,
+        operations,
+        presses,
+        seed,
+    } = &line.scenario;
+    let faults = Faults { slips, refusals, answers, pauses, power_offs, sensors, jams, slow };
+    let kinds: Vec<Value> = line.kinds.iter().map(kind).collect();
+    let mut scenario = json!({ "kinds": kinds });
+    match goal {
+        Goal::AllOrders => scenario["orders"] = orders.iter().map(|it| order(line, it)).collect(),
+        Goal::Collected(sinks) => scenario["goal"] = sinks.iter().map(|it| collected(line, it)).collect(),
+        Goal::TimeLimit => {}
+    }
+    let items: Map<String, Value> = supply.iter().map(|it| supplied(line, it)).collect();
+    scenario["supply"] =
+        json!({"first_s": spawn_first_s, "every_s": spawn_every_s, "seed": seed, "items": items});
+    scenario["time_limit_s"] = json!(time_limit_s);
+    scenario["faults"] = faults.json(system, line);
+    scenario["operator"] = operator::json(line, operations, presses);
     format!("{scenario:#}\n")
+}
+
+fn kind(kind: &Kind) -> Value {
+    let Kind { name, height, grasp, size, is, mass } = kind;
+    let mut value = json!({"name": name, "height": height, "size": size, "is": is, "mass": mass});
+    if grasp != height {
+        value["grasp"] = json!(grasp);
+    }
+    value
+}
+
+fn order(line: &Line, Order { stations, parts }: &Order) -> Value {
+    let stations: Vec<&str> = stations.iter().map(|station| name(line, *station)).collect();
+    json!({"station": stations, "parts": counted(line, parts)})
+}
+
+fn collected(line: &Line, Collected { machine, part, items }: &Collected) -> (String, Value) {
+    let sink = format!("{}.{}", name(line, *machine), part_name(line, *machine, *part));
+    (sink, counted(line, items))
+}
+
+fn supplied(line: &Line, Supply { belt, items }: &Supply) -> (String, Value) {
+    let items = items.iter().map(|item| line.kinds[*item].name.as_str()).collect();
+    (name(line, *belt).into(), items)
+}
+
+/// Numbers of each kind, but for those of which there is none.
+fn counted(line: &Line, numbers: &[u32]) -> Value {
+    let kinds = line.kinds.iter().zip(numbers).filter(|(_, number)| **number > 0);
+    kinds.map(|(kind, number)| (kind.name.as_str(), json!(number))).collect()
+}
+
+fn name(line: &Line, machine: usize) -> &str {
+    &line.machines[machine].name
+}
+
+fn part_name(line: &Line, machine: usize, part: usize) -> &str {
+    &line.machines[machine].parts[part].name
+}
+
+/// Seconds from the start of a run, or of a part of it.
+fn seconds(line: &Line, scans: u64) -> f64 {
+    scans as f64 * f64::from(line.scan_ms) / 1000.0
+}
+
+/// When something begins, and for how long it lasts if it ends.
+fn lasts(line: &Line, During { at_scan, scans }: &During, what: &mut Value) {
+    what["at_s"] = json!(seconds(line, *at_scan));
+    if let Some(scans) = scans {
+        what["for_s"] = json!(seconds(line, *scans));
+    }
 }

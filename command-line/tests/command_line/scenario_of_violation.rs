@@ -1,0 +1,82 @@
+//! `verify --counterexample`: the scenario of a violation, and what is said of its run.
+
+use super::sweep::printed;
+use super::*;
+
+/// A line of one machine; its automaton is that of the device `pad`.
+fn put(name: &str, automaton: &str, scenario: &str) -> PathBuf {
+    let folder = folder(name);
+    let device = "device pad {
+            part start = button {};
+            part slide = positioner { positions: [0, 1]; slides: point(0, 0, 1); speed: 0.5; };
+            in pressed: bool = start.on;
+            out goal: int 0..1;
+            command 1 go(goal) = slide.to(goal);
+        }";
+    let layout = r#"{"robots": [{"name": "pad", "type": "counter", "pose": [0, 0, 0]}], "specs": "pad.aut"}"#;
+    for (file, text) in [
+        ("pad.aut", format!("{device}\nautomaton Counter on pad {{ {automaton} }}").as_str()),
+        ("line.json", layout),
+        ("scenario.json", scenario),
+    ] {
+        fs::write(folder.join(file), text).expect("a file that can be written");
+    }
+    folder
+}
+
+/// What is said of the run in the simulator.
+fn simulator(folder: &Path, more: &[&str]) -> String {
+    let arguments = ["verify", "line.json", "--scenario", "scenario.json", "--format", "json"];
+    let output = autogen(folder, &[&arguments[..], more].concat());
+    assert_eq!(status(&output), 3, "{}", errors(&output));
+    json(&output)["violations"][0]["simulator"].as_str().expect("a text").into()
+}
+
+/// Two refusals violate it, the second one after a second.
+fn tries(condition: &str) -> String {
+    format!(
+        "local tries: int 0..9;
+        initial state Waiting {{ when {condition} -> Going {{ go(1); }} }}
+        state Going {{ when failed -> Failed {{ tries += 1; }} }}
+        state Failed {{ when after 1 s -> Going {{ go(1); }} }}
+        invariant tries < 2;"
+    )
+}
+
+#[test]
+fn a_run_of_the_file_ends_as_that_which_was_replayed() {
+    for (name, condition, scenario) in [
+        ("file_without_orders", "after 10 ms", r#"{"time_limit_s": 60}"#),
+        (
+            "file_with_operator",
+            "pressed",
+            r#"{"time_limit_s": 60, "operator": [{"robot": "pad", "part": "start", "at_s": 0.5}]}"#,
+        ),
+    ] {
+        let folder = put(name, &tries(condition), scenario);
+        let said = simulator(&folder, &["--counterexample", "found.json"]);
+        assert!(said.contains("the same transitions have fired") && said.contains("tries < 2"), "{said}");
+        let test =
+            r#"layout "line.json"; scenario "found.json"; test "run" { expect fault "tries < 2" of pad; }"#;
+        fs::write(folder.join("found.test"), test).expect("a file that can be written");
+        let output = autogen(&folder, &["test", "found.test"]);
+        assert_eq!(status(&output), 0, "{name}: {}{}", printed(&output), errors(&output));
+    }
+}
+
+#[test]
+fn transitions_that_have_not_fired_are_not_said_to_have() {
+    for (name, automaton) in [
+        (
+            "other_fault",
+            "local n: int 0..1;
+            initial state Waiting within 1 s { when pressed -> Counted { n := 1; } }
+            final state Counted;
+            invariant n = 0;",
+        ),
+        ("stays", "local n: int 0..1; initial state Counting { when pressed -> Counting { n += 1; } }"),
+    ] {
+        let said = simulator(&put(name, automaton, r#"{"time_limit_s": 60}"#), &[]);
+        assert!(!said.contains("the same transitions"), "{name}: {said}");
+    }
+}
