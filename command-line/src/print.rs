@@ -235,7 +235,7 @@ pub fn verdict(v: &Verdict) -> String {
     if !v.sinks.is_empty() {
         text += &format!("sinks         {}\n", list(&v.sinks));
     }
-    if !v.edges.is_empty() {
+    if !v.edges.is_empty() || !v.single_points.is_empty() {
         let passed = if v.single_points.is_empty() { "" } else { " (every item passes each of them)" };
         text += &format!("single points {}{passed}\n", list(&v.single_points));
     }
