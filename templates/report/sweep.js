@@ -84,9 +84,10 @@
 
   function draw() {
     document.title = 'Sweep – report';
-    const best = done.reduce((least, row) => (!least || figureOf(row) < figureOf(least) ? row : least), null);
+    const sign = figure.best === "greatest" ? -1 : 1;
+    const best = done.reduce((best, row) => (!best || sign * figureOf(row) < sign * figureOf(best) ? row : best), null);
     const figures = [['rows', String(rows.length)], [figure.done, String(rows.filter((row) => row.finished).length)]];
-    if (best) figures.push([`least ${figure.title.toLowerCase()}`, `${number(figureOf(best))}, row ${best.row}`]);
+    if (best) figures.push([`${figure.best} ${figure.title.toLowerCase()}`, `${number(figureOf(best))}, row ${best.row}`]);
     byId('figures').append(...figures.map(([name, value]) =>
       element('div', 'figure', element('dt', '', name), element('dd', '', value))));
     byId('rows').append(table());

@@ -13,8 +13,14 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Of a goal of items; their text stands where that of orders does.
-    pub fn of_items(row: &Row) -> Self {
+    /// Of items that sinks collect; their text stands where that of orders does.
+    pub fn of_throughput(row: &Row) -> Self {
+        let values = vec![("items", json!(row.outcome.items)), ("items_per_hour", json!(row.items_per_hour))];
+        Self { values, texts: Vec::new() }
+    }
+
+    /// The same, if they have a goal.
+    pub fn of_goal(row: &Row) -> Self {
         let outcome = &row.outcome;
         let values = vec![
             ("items", json!(outcome.items)),

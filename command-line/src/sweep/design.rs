@@ -12,6 +12,14 @@ pub enum Asked {
     Orders,
     /// Sinks should collect items: the figure is the time until they have, s.
     Items,
+    /// Nothing is asked for: the figure is the number of items that sinks collect in an hour.
+    Throughput,
+}
+
+impl Asked {
+    /// As a part of a sweep says it.
+    const NAMES: [(Self, &str); 3] =
+        [(Self::Orders, "orders"), (Self::Items, "goal"), (Self::Throughput, "throughput")];
 }
 
 /// Nothing of it needs the layouts: a part of a sweep carries it in its first line.
@@ -107,7 +115,10 @@ impl Design {
             self.axes.iter().map(|axis| json!({ "name": axis.name, "values": axis.values })).collect();
         let design = [
             ("layouts", json!(self.layouts)),
-            ("goal_of_items", json!(self.asked == Asked::Items)),
+            (
+                "asked",
+                json!(Asked::NAMES.iter().find(|(asked, _)| *asked == self.asked).map(|(_, name)| name)),
+            ),
             ("set", Value::Array(axes)),
             ("order", json!(self.orders)),
             ("io_delay", json!(self.delays)),
@@ -131,7 +142,7 @@ impl Design {
         };
         let design = Self {
             layouts: texts(&json["layouts"])?,
-            asked: if json["goal_of_items"].as_bool()? { Asked::Items } else { Asked::Orders },
+            asked: Asked::NAMES.iter().find(|(_, name)| json["asked"] == *name)?.0,
             axes: json["set"].as_array()?.iter().map(axis).collect::<Option<_>>()?,
             orders: json["order"].as_array()?.iter().map(Value::as_u64).collect::<Option<_>>()?,
             delays: texts(&json["io_delay"])?,

@@ -28,9 +28,7 @@ impl Grid {
     }
 
     pub fn take(&mut self, row: &Row) {
-        if row.outcome.finished
-            && let [value] = row.point.values[..]
-        {
+        if let [value] = row.point.values[..] {
             self.cells[row.point.layout][value] = row.figure;
         }
     }
@@ -41,6 +39,7 @@ impl Grid {
         let figure = match self.asked {
             Asked::Orders => "s/order",
             Asked::Items => "goal at, s,",
+            Asked::Throughput => "items/h",
         };
         let heading = format!("{figure} by {}", axis.name);
         let first = titles.chain([heading.len()]).max().unwrap_or(0);

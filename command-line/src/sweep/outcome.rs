@@ -16,7 +16,7 @@ pub struct Outcome {
     pub orders: Option<u64>,
     /// `None` if no order was made, or all were cut.
     pub seconds_per_order: Option<f64>,
-    /// Items that the sinks of a goal have; 0 without such a goal.
+    /// Items that the sinks of a goal have; without a goal those that any sink has.
     pub items: u64,
     /// Number that they should have; `None` without such a goal.
     pub items_asked: Option<u64>,
@@ -57,9 +57,9 @@ impl Outcome {
         self.orders_done = report.orders_done as u64;
         self.orders = Some(report.orders as u64);
         self.seconds_per_order = report.seconds_per_order;
-        let [items, items_asked] = report.collected.map_or([None; 2], |both| both.map(Some));
-        self.items = items.unwrap_or(0);
-        self.items_asked = items_asked;
+        let in_sinks = || report.sinks.iter().map(|(.., count)| count).sum();
+        self.items = report.collected.map_or_else(in_sinks, |[items, _]| items);
+        self.items_asked = report.collected.map(|[_, asked]| asked);
         if let Some(warm_up) = warm_up {
             let mut made: Vec<f64> = report.order_times.iter().filter_map(|times| times.made_s).collect();
             made.sort_by(f64::total_cmp);
@@ -81,14 +81,18 @@ impl Outcome {
         match asked {
             Asked::Orders => self.seconds_per_order,
             Asked::Items => self.simulated_s.filter(|_| self.items_asked.is_some()),
+            Asked::Throughput => self.items_per_hour(asked),
         }
         .filter(|_| self.finished)
     }
 
-    /// Items that sinks collect in an hour, as a mean over the run.
-    pub fn items_per_hour(&self) -> Option<f64> {
+    /// Items that sinks collect in an hour, as a mean over the run; `None` of a layout without a goal beside others with one.
+    pub fn items_per_hour(&self, asked: Asked) -> Option<f64> {
+        if asked != Asked::Throughput && self.items_asked.is_none() {
+            return None;
+        }
         let simulated_s = self.simulated_s.filter(|s| *s > 0.0)?;
-        self.items_asked.map(|_| self.items as f64 * 3600.0 / simulated_s)
+        Some(self.items as f64 * 3600.0 / simulated_s)
     }
 
     /// The point cannot be run, whatever the seeds are.
@@ -116,7 +120,7 @@ impl Outcome {
         let mut line = design.names(&design.point(run.point));
         line.insert("replication".into(), json!(run.replication));
         line.extend(self.to_json());
-        if design.asked == Asked::Items {
+        if design.asked != Asked::Orders {
             line.insert("items".into(), json!(self.items));
             line.insert("items_asked".into(), json!(self.items_asked));
         }

@@ -103,9 +103,9 @@ impl Plan {
         let replications = options.replications.map_or(most, NonZeroU32::get);
         distinct::seeds_are_apart(&axes, &lines, &delays, replications)?;
         let asked = asked(&lines);
-        if asked == Asked::Items && options.warm_up.is_some() {
+        if asked != Asked::Orders && options.warm_up.is_some() {
             return Err(Refusal::Said(
-                "--warm-up cuts orders, and these scenarios have none: their goal is items that sinks collect".into(),
+                "--warm-up cuts orders, and these scenarios have none: their figure is of items that sinks collect".into(),
             ));
         }
         let design = Design {
@@ -123,11 +123,17 @@ impl Plan {
     }
 }
 
-/// Items only if no layout has orders: else rows have one figure for all.
+/// Rows have one figure for all: that of orders, if a layout has some, and that of a goal before that of no goal.
 fn asked(lines: &[Line]) -> Asked {
     let has_items = lines.iter().any(|line| line.draft.items().is_some());
     let has_orders = lines.iter().any(|line| line.draft.orders().is_some_and(|orders| orders > 0));
-    if has_items && !has_orders { Asked::Items } else { Asked::Orders }
+    if has_items && !has_orders {
+        Asked::Items
+    } else if lines.iter().all(|line| line.draft.orders() == Some(0)) {
+        Asked::Throughput
+    } else {
+        Asked::Orders
+    }
 }
 
 fn precision(text: &str) -> Result<Precision, Refusal> {

@@ -22,7 +22,7 @@ pub struct Row {
     pub half_width: Option<f64>,
     /// Mean over the runs in which all orders were made.
     pub cut_orders: Option<f64>,
-    /// Mean over all runs; `None` without a goal of items.
+    /// Mean over all runs; `None` of a layout without a goal beside others with one.
     pub items_per_hour: Option<f64>,
     /// The figure less that of the first point with the same seeds.
     pub differences: Sample,
@@ -64,7 +64,7 @@ impl Tally {
         self.runs += 1;
         self.orders_done = self.orders_done.into_iter().chain([outcome.orders_done]).min();
         self.items = self.items.into_iter().chain([outcome.items]).min();
-        outcome.items_per_hour().into_iter().for_each(|n| self.items_per_hour.take(n));
+        outcome.items_per_hour(asked).into_iter().for_each(|n| self.items_per_hour.take(n));
         if outcome.finished {
             outcome.figure(asked).into_iter().for_each(|s| self.figure.take(s));
             outcome.simulated_s.into_iter().for_each(|s| self.simulated_s.take(s));
@@ -132,7 +132,7 @@ impl<'a> Rows<'a> {
                 figure: outcome.figure(self.design.asked),
                 half_width: None,
                 cut_orders: outcome.finished.then_some(outcome.cut_orders as f64),
-                items_per_hour: outcome.items_per_hour(),
+                items_per_hour: outcome.items_per_hour(self.design.asked),
                 differences: std::mem::take(&mut self.tally).differences,
                 outcome,
             };

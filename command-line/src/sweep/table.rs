@@ -81,8 +81,10 @@ impl<'a> Table<'a> {
     /// Those that are asked for. `beside` is there if there are figures from elsewhere.
     fn columns(&self, row: &Row, beside: Option<Beside>) -> Vec<Columns> {
         let mut columns = Vec::new();
-        if self.design.asked == Asked::Items {
-            columns.push(Columns::of_items(row));
+        match self.design.asked {
+            Asked::Orders => {}
+            Asked::Items => columns.push(Columns::of_goal(row)),
+            Asked::Throughput => columns.push(Columns::of_throughput(row)),
         }
         if self.design.has_means() {
             columns.push(Columns::of_runs(row));
@@ -112,6 +114,7 @@ impl<'a> Table<'a> {
                 let figures = match self.design.asked {
                     Asked::Orders => format!("{:>11}  {:>9}", "orders", "s/order"),
                     Asked::Items => format!("{:>11}  {:>8}  {:>9}", "items", "items/h", "goal at s"),
+                    Asked::Throughput => format!("{:>11}  {:>8}", "items", "items/h"),
                 };
                 let simulated = "simulated";
                 let names = self.text(|name| name.title.into());
@@ -152,14 +155,15 @@ impl<'a> Table<'a> {
                 let point = self.text(|name| (name.cell)(row));
                 let of =
                     |done: u64, all: Option<u64>| all.map_or("-".into(), |all| format!("{done} of {all}"));
+                let per_hour = row.items_per_hour.map_or("-".into(), |n| format!("{n:.1}"));
                 let figures = match self.design.asked {
                     Asked::Orders => {
                         let orders = of(outcome.orders_done, outcome.orders);
                         format!("{orders:>11}  {:>9}", seconds(outcome.seconds_per_order))
                     }
+                    Asked::Throughput => format!("{:>11}  {per_hour:>8}", outcome.items),
                     Asked::Items => {
                         let items = of(outcome.items, outcome.items_asked);
-                        let per_hour = row.items_per_hour.map_or("-".into(), |n| format!("{n:.1}"));
                         format!("{items:>11}  {per_hour:>8}  {:>9}", seconds(row.figure))
                     }
                 };

@@ -450,6 +450,61 @@ fn means_differences_and_parts_of_a_goal_are_those_of_its_time() {
     assert!(errors(&output).contains("--warm-up cuts orders, and these scenarios have none"));
 }
 
+#[test]
+fn without_orders_and_a_goal_rows_have_the_items_of_an_hour() {
+    let folder = folder("sweep_throughput");
+    let text = fs::read_to_string(example("scenes/from_a_to_b.scenario.json")).expect("the example");
+    let mut scenario: Value = serde_json::from_str(&text).expect("JSON");
+    let object = scenario.as_object_mut().expect("an object");
+    object.remove("goal");
+    object.insert("time_limit_s".into(), 40.into());
+    object["supply"]["times"] = 100.into();
+    put(&folder, "shift.json", &scenario.to_string());
+    let layout = example("scenes/from_a_to_b.json");
+    let sweep = |more: &[&str]| {
+        let fixed = ["sweep", &layout, "--scenario", "shift.json", "--set", "from_a_to_b.work=1,4"];
+        autogen(&folder, &[&fixed[..], &["--replications", "2"], more].concat())
+    };
+    let output = sweep(&["--format", "json", "--report", "page.html"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let found = rows(&output);
+    let commission = [
+        "commission",
+        &layout,
+        "--scenario",
+        "shift.json",
+        "--set",
+        "from_a_to_b.work=4",
+        "--format",
+        "json",
+    ];
+    let slow = json(&autogen(&folder, &commission));
+    let sinks = slow["sinks"].as_object().expect("sinks").values();
+    let items: u64 =
+        sinks.flat_map(|kinds| kinds.as_object().expect("kinds").values()).filter_map(Value::as_u64).sum();
+    assert!(items > 0);
+    assert_eq!(found[1]["items"], items);
+    assert_eq!(found[1]["items_per_hour"], items as f64 * 3600.0 / 40.0);
+    assert_eq!(found[1]["half_width"], 0.0);
+    assert!(found[0]["items_per_hour"].as_f64() > found[1]["items_per_hour"].as_f64(), "{found:?}");
+    let page = fs::read_to_string(folder.join("page.html")).expect("a page");
+    assert!(page.contains("\"Items per hour\"") && page.contains("\"greatest\""));
+    let text = printed(&sweep(&[]));
+    let head = text.lines().next().expect("a line");
+    assert!(head.contains("      items   items/h      +-       runs     simulated  reason"), "{text}");
+    assert!(text.contains("items/h by from_a_to_b.work"), "{text}");
+    let parts = ["1", "2"].map(|number| {
+        let name = format!("part{number}.jsonl");
+        put(&folder, &name, &printed(&sweep(&["--part", &format!("{number}/2")])));
+        name
+    });
+    let merged = autogen(&folder, &["merge", &parts[0], &parts[1]]);
+    assert_eq!(printed(&merged), text, "{}", errors(&merged));
+    let output = sweep(&["--warm-up", "auto"]);
+    assert_eq!(status(&output), 2);
+    assert!(errors(&output).contains("--warm-up cuts orders, and these scenarios have none"));
+}
+
 /// What a compiler says has many lines, a row has one.
 #[cfg(unix)]
 #[test]

@@ -37,12 +37,13 @@ pub fn html(names: &[Name], rows: &[Value], kept: &BTreeMap<usize, String>) -> S
         row["row"] = json!(index + 1);
         row
     });
-    let has_goal = rows.iter().any(|row| row.get("goal_s").is_some());
-    let figure = match has_goal {
-        true => json!({ "key": "goal_s", "title": "Seconds until the goal", "done": "goals reached" }),
-        false => {
-            json!({ "key": "seconds_per_order", "title": "Seconds per order", "done": "all orders made" })
-        }
+    let has = |key: &str| rows.iter().any(|row| row.get(key).is_some());
+    let figure = if has("goal_s") {
+        json!({ "key": "goal_s", "title": "Seconds until the goal", "done": "goals reached", "best": "least" })
+    } else if has("items_per_hour") {
+        json!({ "key": "items_per_hour", "title": "Items per hour", "done": "time limits reached", "best": "greatest" })
+    } else {
+        json!({ "key": "seconds_per_order", "title": "Seconds per order", "done": "all orders made", "best": "least" })
     };
     let data = json!({
         "figure": figure,
