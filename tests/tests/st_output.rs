@@ -201,6 +201,29 @@ fn all_files() -> Vec<(String, Files)> {
     layouts.chain(fixtures).collect()
 }
 
+/// Such as the condition of a property that is at its place already.
+#[test]
+fn nothing_is_assigned_to_itself() {
+    let spec = "device unit { part button = button {}; in pressed: bool = button.on; }
+        automaton Unit on unit {
+            local n: int 0..9;
+            keep n while pressed else warn \"counted\";
+            initial state Counting { when pressed and n < 9 -> Counting { n += 1; } }
+        }";
+    let with_a_keep = ("a keep".to_string(), of_fixture("keep.aut", spec));
+    // One of the fixtures says so itself.
+    let all = all_files().into_iter().filter(|(name, _)| name != "lints.aut");
+    for (name, files) in all.chain([with_a_keep]) {
+        for (path, text) in files.iter().filter(|(path, _)| path.ends_with(".st") || path.ends_with(".scl")) {
+            let of_itself = |line: &&str| {
+                let statement = line.trim().strip_suffix(';').and_then(|text| text.split_once(" := "));
+                statement.is_some_and(|(target, value)| target == value)
+            };
+            assert_eq!(text.lines().find(of_itself), None, "{name}: {path}");
+        }
+    }
+}
+
 #[test]
 fn an_independent_grammar_takes_every_file() {
     let mut parsed = 0;

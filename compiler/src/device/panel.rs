@@ -81,7 +81,10 @@ impl Panel<'_> {
     fn output(&mut self, output: &ast::Port) {
         let name = &output.name.value;
         let is_point = matches!(output.ty.scalar, Scalar::Point);
-        let about = format!("panel, by hand: {}", plain(&output.doc));
+        let about = format!(
+            "panel, by hand: {}",
+            if output.doc.is_empty() { name.clone() } else { plain(&output.doc) }
+        );
         for input in inputs_for(name, is_point) {
             match &output.ty.scalar {
                 Scalar::Bool => self.switch(&input, false, &about),
