@@ -495,7 +495,7 @@ fn attempt(
         reached: store,
         values,
         unread,
-        entered: entered.into_iter().collect(),
+        entered,
     };
     match is_decided {
         true => Ok(outcome),

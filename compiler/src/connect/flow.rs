@@ -84,19 +84,11 @@ impl Flow {
         let of = |nodes: &Nodes| self.machines().map(|machine| nodes.is_visited(&machine)).collect();
         Served { supplied: of(&found(&graph, self.entry)), drained: of(&found(Reversed(&graph), self.exit)) }
     }
-
-    /// Machines between the sources and the destinations through which every item goes, in the order in which it
-    /// does: if one of them is at rest, nothing leaves the layout.
-    pub fn single_points(&self, stands: &[bool]) -> Vec<usize> {
-        let ends: Vec<NodeIndex> =
-            self.graph.neighbors(self.entry).chain(Reversed(&self.graph).neighbors(self.exit)).collect();
-        let passed = passed(&self.standing(stands), [self.entry, self.exit]);
-        passed.into_iter().filter(|node| !ends.contains(node)).map(NodeIndex::index).collect()
-    }
 }
 
 /// Machines that every item passes on its way from where items enter to where they leave, but for these, in the order in
-/// which it does; machines by their numbers, and which leads to which.
+/// which it does: if one of them is at rest, nothing leaves the layout. Machines by their numbers, and which leads to
+/// which.
 pub fn single_points(
     leads_to: impl IntoIterator<Item = [usize; 2]>,
     enters: &[usize],
@@ -111,19 +103,11 @@ pub fn single_points(
     if graph.node_count() == 0 {
         return Vec::new();
     }
-    let passed = passed(&graph, [entry, exit].map(NodeIndex::from)).into_iter();
-    let machines = passed.map(|node| node.index() - 2);
-    machines.filter(|machine| !enters.contains(machine) && !leaves.contains(machine)).collect()
-}
-
-/// The nodes on all ways from one to another one, in their order.
-fn passed<G>(graph: G, [from, to]: [NodeIndex; 2]) -> Vec<NodeIndex>
-where
-    G: IntoNeighbors<NodeId = NodeIndex> + Visitable<NodeId = NodeIndex>,
-{
-    let dominators = dominators::simple_fast(graph, from);
-    let mut passed: Vec<NodeIndex> = dominators.strict_dominators(to).into_iter().flatten().collect();
-    passed.retain(|node| *node != from);
+    let dominators = dominators::simple_fast(&graph, NodeIndex::from(entry));
+    let passed = dominators.strict_dominators(NodeIndex::from(exit)).into_iter().flatten();
+    let machines = passed.filter_map(|node| node.index().checked_sub(2));
+    let mut passed: Vec<usize> =
+        machines.filter(|machine| !enters.contains(machine) && !leaves.contains(machine)).collect();
     passed.reverse();
     passed
 }

@@ -240,12 +240,20 @@ pub fn check(line: &Line) -> Report {
         })
         .collect();
     let diagnostics = verdict::diagnostics(line, &flow, &stands, &failures);
+    let those = |wanted: fn(&Node) -> bool| -> Vec<usize> {
+        (0..line.nodes.len()).filter(|node| wanted(&line.nodes[*node])).collect()
+    };
+    let single_points = single_points(
+        edges.iter().map(|edge| [edge.from, edge.to]),
+        &those(|node| node.is_source),
+        &those(|node| node.is_destination),
+    );
     let connected =
         diagnostics.is_empty().then(|| Connected { edges: edges.clone(), reach: flow.reach(&stands) });
     Report {
         edges,
         failures,
-        single_points: flow.single_points(&stands),
+        single_points,
         unreachable: served.unreachable(),
         dead_ends: served.dead_ends(),
         diagnostics,

@@ -110,9 +110,9 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         let driven = line.machines[number].wiring.outputs.iter().zip(&whole.plants[number].outputs);
         for ((port, output), (wired, level)) in published.zip(driven) {
             outputs[port] = level.map(|var| (vec![var], 0));
-            // The number of the command grows without end.
-            let is_counted = matches!(wired.drives, Drives::Command | Drives::Verb);
-            if level.is_none() && !is_counted && reads_port(automaton, port, asked) {
+            // What the head publishes by itself is not followed: the number of the command grows without end.
+            let is_of_head = matches!(wired.drives, Drives::Command | Drives::Verb);
+            if level.is_none() && !is_of_head && reads_port(automaton, port, asked) {
                 let ty = Type { scalar: output.ty.into(), extent: output.extent.into() };
                 let initial = match output.ty {
                     PortType::Bool => Value::Bool(false),

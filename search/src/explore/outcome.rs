@@ -7,6 +7,7 @@ use crate::successor::Orders;
 use crate::unread::Unread;
 use crate::value::Values;
 use crate::violation::Violation;
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// How far to search.
@@ -88,8 +89,9 @@ pub struct Outcome {
     pub values: Values,
     /// Where nothing is read of what is forgotten: another search may begin with that.
     pub unread: Unread,
-    /// Instances, and their states into which only answers bring them that are postponed: no state that was reached has them.
-    pub entered: Vec<(usize, usize)>,
+    /// Instances, and states of theirs that no state that was reached has to have: answers that are postponed bring them
+    /// there, or a scan ends there in a stop or a violation.
+    pub entered: BTreeSet<(usize, usize)>,
 }
 
 /// Why a search begins anew.
