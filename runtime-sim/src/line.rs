@@ -5,6 +5,7 @@ mod faults;
 mod text;
 
 use crate::machine::Machine;
+use crate::part::process::Process;
 use crate::point::Point;
 pub use faults::{Answer, During, Jam, Pause, Refusal, Slip, SlowCycle, Stuck};
 
@@ -251,6 +252,12 @@ impl Default for Scenario {
 }
 
 impl Line {
+    /// Whether runs with other seeds may differ, with the same supply.
+    pub fn is_drawn(&self) -> bool {
+        matches!(self.io_delay, IoDelay::Random { max, .. } if max > 0)
+            || self.machines.iter().flat_map(Machine::processes).any(Process::is_drawn)
+    }
+
     /// Whether contact of these two, machines or obstacles, is no reason to end a run.
     pub fn allows(&self, [a, b]: [&str; 2]) -> bool {
         self.may_touch.iter().any(|[c, d]| (a, b) == (c, d) || (b, a) == (c, d))

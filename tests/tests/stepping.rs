@@ -154,6 +154,15 @@ fn events_and_every_scan_are_the_same() {
         if beside != events {
             wrong.push(format!("{}: another result beside another run", case.name));
         }
+        if !project.differs(&line) {
+            let mut other = line.clone();
+            other.scenario.seed += 1;
+            let other =
+                execute(&other, Stepping::Events, &mut memory.beside()).expect("a line that can be run");
+            if other != events {
+                wrong.push(format!("{}: nothing is drawn, but another seed has another result", case.name));
+            }
+        }
         wrong.extend(anew(Stepping::Checked).err().map(|text| format!("{}: {text}", case.name)));
         wrong
     });

@@ -40,7 +40,7 @@ impl Columns {
                 ("half_width", json!(row.half_width)),
             ],
             texts: vec![
-                ("+-", 6, seconds(row.half_width)),
+                ("+-", 6, if row.are_same { "same".into() } else { seconds(row.half_width) }),
                 ("runs", 9, format!("{} of {}", row.finished_runs, row.runs)),
             ],
         }

@@ -45,7 +45,7 @@ fn same(a: &Json, b: &Json) -> bool {
 }
 
 /// Replications of a point take the seeds that follow its own. Were one of them that of another point, both would be
-/// the same run.
+/// the same run. After the greatest number seeds go on with 0.
 pub fn seeds_are_apart(
     axes: &[Axis],
     lines: &[Line],
@@ -62,22 +62,25 @@ pub fn seeds_are_apart(
             Value::Number(seed) if seed >= 0.0 && seed.fract() == 0.0 => Some(seed as u64),
             _ => None,
         });
-        are_apart(&format!("--set {}", axis.name), seeds.collect(), replications)?;
+        are_apart(&format!("--set {}", axis.name), seeds.collect(), u64::from(u32::MAX), replications)?;
     }
     let seeds = delays.iter().filter_map(|delay| match delay {
         IoDelay::Random { seed, .. } => Some(*seed),
         IoDelay::Fixed(_) => None,
     });
-    are_apart("--io-delay", seeds.collect(), replications)
+    are_apart("--io-delay", seeds.collect(), u64::MAX, replications)
 }
 
-fn are_apart(option: &str, mut seeds: Vec<u64>, replications: u32) -> Result<(), Refusal> {
+/// `greatest` is the last seed; the first one follows it.
+fn are_apart(option: &str, mut seeds: Vec<u64>, greatest: u64, replications: u32) -> Result<(), Refusal> {
     seeds.sort_unstable();
-    match seeds.windows(2).find(|pair| pair[1] - pair[0] < u64::from(replications)) {
-        Some(pair) => Err(Refusal::Said(format!(
-            "{option}: the seeds {} and {} are less than {replications} apart, so that with {replications} replications \
-             both points would have some runs in common; take seeds that are farther apart, or no list of them",
-            pair[0], pair[1]
+    let following = seeds.iter().cycle().skip(1);
+    let mut pairs = seeds.iter().zip(following).filter(|_| seeds.len() > 1);
+    match pairs.find(|(seed, next)| next.wrapping_sub(**seed) & greatest < u64::from(replications)) {
+        Some((seed, next)) => Err(Refusal::Said(format!(
+            "{option}: the seeds {seed} and {next} are less than {replications} apart, so that with {replications} \
+             replications both points would have some runs in common; take seeds that are farther apart, or no list of \
+             them"
         ))),
         None => Ok(()),
     }

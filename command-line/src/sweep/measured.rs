@@ -13,6 +13,9 @@ const FIGURE: &str = "seconds_per_order";
 pub struct Measured {
     /// By what a point is called, in the order of [`Self::keys`]: its figure, if it has one.
     rows: BTreeMap<Vec<String>, Option<f64>>,
+    name: String,
+    /// Points of it that stand beside no row so far, and their lines.
+    unused: BTreeMap<Vec<String>, usize>,
     keys: Vec<String>,
     /// Squares of what the ratios of here and there differ from 1, their sum and number.
     squares: f64,
@@ -63,7 +66,7 @@ impl Measured {
                 return Err(said(format!("the column `{key}` occurs twice")));
             }
         }
-        let mut rows = BTreeMap::new();
+        let (mut rows, mut unused) = (BTreeMap::new(), BTreeMap::new());
         for record in records {
             let number = || sources.position(record[0].span).0;
             let mut point = texts(record);
@@ -79,16 +82,18 @@ impl Measured {
                         || said(format!("line {}: `{text}` is not a number of seconds above 0", number())),
                     )?),
                 };
+            unused.insert(point.clone(), number());
             if rows.insert(point, value).is_some() {
                 return Err(said(format!("line {}: this point occurs twice", number())));
             }
         }
-        Ok(Self { rows, keys, squares: 0.0, ratios: 0 })
+        Ok(Self { rows, name: name.into(), unused, keys, squares: 0.0, ratios: 0 })
     }
 
     /// What stands beside a point that came to `seconds_per_order`; `cell` gives what it is called in a column.
     pub fn beside(&mut self, seconds_per_order: Option<f64>, cell: impl Fn(&str) -> String) -> Beside {
         let point: Vec<String> = self.keys.iter().map(|key| cell(key)).collect();
+        self.unused.remove(&point);
         let found = self.rows.get(&point).copied().flatten();
         let ratio = found.zip(seconds_per_order).map(|(there, here)| here / there);
         if let Some(ratio) = ratio {
@@ -96,6 +101,19 @@ impl Measured {
             self.ratios += 1;
         }
         Beside { seconds_per_order: found, ratio }
+    }
+
+    /// The first line whose point is none of the sweep so far; none if there is no such line.
+    pub(crate) fn unused(&self) -> Option<String> {
+        let (point, line) = self.unused.iter().min_by_key(|(_, line)| **line)?;
+        let point: Vec<String> =
+            self.keys.iter().zip(point).map(|(key, value)| format!("{key} {value}")).collect();
+        let more = match self.unused.len() {
+            1 => String::new(),
+            lines => format!(" (and {} more lines)", lines - 1),
+        };
+        let Self { name, .. } = self;
+        Some(format!("{name}: line {line}: the sweep has no point with {}{more}", point.join(", ")))
     }
 
     /// Root mean square of what the ratios so far differ from 1, and their number; none without a ratio.

@@ -2,7 +2,7 @@
 
 use super::design::{Asked, Design, RunNumber};
 use super::warm_up::{WarmUp, seconds_per_order};
-use crate::Status;
+use crate::{Status, output};
 use runtime_sim::report::Report;
 use serde_json::{Map, Value, json};
 
@@ -115,7 +115,8 @@ impl Outcome {
         all.into_iter().map(|(key, value)| (key.into(), value)).collect()
     }
 
-    /// A line of a part: what names the run, what came of it, and the exit status of a sweep of this run alone.
+    /// A line of a part: what names the run, what came of it, the exit status of a sweep of this run alone, and a hash of
+    /// all that.
     pub fn to_line(&self, design: &Design, run: RunNumber) -> Map<String, Value> {
         let mut line = design.names(&design.point(run.point));
         line.insert("replication".into(), json!(run.replication));
@@ -126,6 +127,8 @@ impl Outcome {
         }
         line.insert("cut_orders".into(), json!(self.cut_orders));
         line.insert("status".into(), json!(self.status as u8));
+        let hash = output::hash(Value::Object(line.clone()).to_string().as_bytes());
+        line.insert("hash".into(), json!(hash));
         line
     }
 

@@ -8,6 +8,7 @@ use super::super::options::SweepOptions;
 use super::axis::Axis;
 use super::design::{Asked, Design, Point};
 use super::distinct;
+use super::outcome::Outcome;
 use super::precision::{self, Precision};
 use super::warm_up::WarmUp;
 use autogen::backend::rust::parameters_text;
@@ -19,7 +20,7 @@ use runtime_sim::line::IoDelay;
 use runtime_sim::memory::Memory;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 pub struct Plan {
     pub design: Design,
@@ -99,6 +100,15 @@ impl Plan {
             delays.push(IoDelay::Fixed(0));
         }
         let precision = options.until_precision.as_deref().map(precision).transpose()?;
+        if precision.is_some()
+            && let Some(few) = options.replications.filter(|few| (few.get() as usize) < precision::FEWEST)
+        {
+            return Err(Refusal::Said(format!(
+                "--until-precision looks at a point after {} runs, and --replications {few} ends it before; give more, or \
+                 leave --replications out",
+                precision::FEWEST
+            )));
+        }
         let most = if precision.is_some() { precision::MOST } else { 1 };
         let replications = options.replications.map_or(most, NonZeroU32::get);
         distinct::seeds_are_apart(&axes, &lines, &delays, replications)?;
@@ -123,8 +133,10 @@ impl Plan {
     }
 }
 
-/// Rows have one figure for all: that of orders, if a layout has some, and that of a goal before that of no goal.
+/// Rows have one figure for all: that of orders, if a layout has some, and that of a goal before that of no goal. Layouts
+/// with errors do not count.
 fn asked(lines: &[Line]) -> Asked {
+    let lines: Vec<&Line> = lines.iter().filter(|line| line.draft.diagnostics().is_empty()).collect();
     let has_items = lines.iter().any(|line| line.draft.items().is_some());
     let has_orders = lines.iter().any(|line| line.draft.orders().is_some_and(|orders| orders > 0));
     if has_items && !has_orders {
@@ -163,6 +175,8 @@ pub struct Made {
     pub project: Project,
     /// The values of its controllers, as these read them.
     pub parameters: String,
+    /// What came of a run, if nothing in it is drawn: all replications are this run.
+    pub only: OnceLock<Outcome>,
 }
 
 impl Line {
@@ -220,7 +234,8 @@ impl Line {
             self.settings.iter().zip(&point.values).map(|(of_axis, &value)| of_axis[value].clone()).collect();
         let compiled = self.draft.line(&settings, order);
         let project = compiled.project.ok_or(compiled.diagnostics)?;
-        let made = Arc::new(Made { parameters: parameters_text(&project.system), project });
+        let parameters = parameters_text(&project.system);
+        let made = Arc::new(Made { project, parameters, only: OnceLock::new() });
         *last_made() = Some((point.clone(), made.clone()));
         Ok(made)
     }

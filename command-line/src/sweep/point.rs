@@ -12,7 +12,6 @@ use autogen::diagnostic::Diagnostic;
 use autogen::fault::reason_of_run;
 use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::memory::Memory;
-use runtime_sim::report::Report;
 use runtime_sim::run::{Seen, Stepping, record, run_again};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -23,7 +22,7 @@ pub fn outcome(plan: &Plan, number: RunNumber, notice: Notice) -> Outcome {
     let line = &plan.lines[point.layout];
     let mut outcome = Outcome::new(line.draft.orders(), line.draft.items());
     match catch_unwind(AssertUnwindSafe(|| run(plan, &point, number.replication, notice))) {
-        Ok(Ok((report, reason))) => outcome.reported(&report, reason, plan.design.warm_up),
+        Ok(Ok(ran)) => outcome = ran,
         Ok(Err(End::Refused(found))) => {
             outcome.reason = refusal(&found);
             outcome.diagnostics = print::diagnostics_json(&line.sources, &found);
@@ -97,15 +96,23 @@ fn ready(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result
     Ok(Ready { made, plant, controllers })
 }
 
-/// The report of a run, and why it ended.
-fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<(Report, String), End> {
+/// What came of a run. Where nothing is drawn, that is known of all replications once one has run.
+fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<Outcome, End> {
     let line = &plan.lines[point.layout];
     let Ready { made, plant, mut controllers } = ready(plan, point, replication, notice)?;
+    if let Some(only) = made.only.get() {
+        return Ok(only.clone());
+    }
     let simulate =
         |memory: &mut Memory| run_again(&plant, &mut controllers, Stepping::Events, memory, &mut |_| {});
     let report = line.remembering(simulate).map_err(End::NoReport)?;
     let reason = reason_of_run(&report, &made.project.system, &line.shown);
-    Ok((report, reason))
+    let mut outcome = Outcome::new(line.draft.orders(), line.draft.items());
+    outcome.reported(&report, reason, plan.design.warm_up);
+    if !made.project.differs(&plant) {
+        made.only.get_or_init(|| outcome.clone());
+    }
+    Ok(outcome)
 }
 
 /// All diagnostics in a line.

@@ -7,7 +7,7 @@ use super::interval::Sample;
 pub struct Precision(f64);
 
 /// Runs before the first look: fewer say too little about how far runs differ.
-const FEWEST: usize = 5;
+pub const FEWEST: usize = 5;
 /// Runs of a point where `--replications` does not say how many at most.
 pub const MOST: u32 = 100;
 

@@ -20,6 +20,8 @@ pub struct Row {
     pub figure: Option<f64>,
     /// Half of the width of the 95 % interval of the figure; `None` of less than two runs.
     pub half_width: Option<f64>,
+    /// In all of several runs the controllers have done the same at the same times.
+    pub are_same: bool,
     /// Mean over the runs in which all orders were made.
     pub cut_orders: Option<f64>,
     /// Mean over all runs; `None` of a layout without a goal beside others with one.
@@ -38,6 +40,7 @@ impl Row {
             finished_runs: 0,
             figure: None,
             half_width: None,
+            are_same: false,
             cut_orders: None,
             items_per_hour: None,
             differences: Sample::default(),
@@ -57,11 +60,18 @@ struct Tally {
     cut_orders: Sample,
     items_per_hour: Sample,
     differences: Sample,
+    /// Hash of what the controllers did in the first run, and whether another run has another one.
+    first_trace: Option<String>,
+    differ: bool,
 }
 
 impl Tally {
     fn take(&mut self, replication: u32, mut outcome: Outcome, asked: Asked) {
         self.runs += 1;
+        if self.runs == 1 {
+            self.first_trace.clone_from(&outcome.trace_hash);
+        }
+        self.differ |= outcome.trace_hash.is_none() || outcome.trace_hash != self.first_trace;
         self.orders_done = self.orders_done.into_iter().chain([outcome.orders_done]).min();
         self.items = self.items.into_iter().chain([outcome.items]).min();
         outcome.items_per_hour(asked).into_iter().for_each(|n| self.items_per_hour.take(n));
@@ -91,6 +101,7 @@ impl Tally {
             finished_runs: self.cut_orders.count,
             figure: self.figure.mean(),
             half_width: self.figure.half_width(),
+            are_same: self.runs > 1 && !self.differ,
             cut_orders: self.cut_orders.mean(),
             items_per_hour: self.items_per_hour.mean(),
             differences: self.differences,
@@ -108,12 +119,14 @@ pub struct Rows<'a> {
     first: Vec<Option<f64>>,
     /// What all runs so far came to.
     pub status: Status,
+    /// Points whose runs are over before their figure is as precise as it should be.
+    imprecise: usize,
 }
 
 impl<'a> Rows<'a> {
     pub fn new(design: &'a Design, table: Table<'a>) -> Self {
         table.begin();
-        Self { design, table, tally: Tally::default(), first: Vec::new(), status: Status::Done }
+        Self { design, table, tally: Tally::default(), first: Vec::new(), status: Status::Done, imprecise: 0 }
     }
 
     /// The runs of a point come in the order of their replications, the points in theirs. Whether it was the last run
@@ -131,6 +144,7 @@ impl<'a> Rows<'a> {
                 finished_runs: usize::from(outcome.finished),
                 figure: outcome.figure(self.design.asked),
                 half_width: None,
+                are_same: false,
                 cut_orders: outcome.finished.then_some(outcome.cut_orders as f64),
                 items_per_hour: outcome.items_per_hour(self.design.asked),
                 differences: std::mem::take(&mut self.tally).differences,
@@ -144,6 +158,9 @@ impl<'a> Rows<'a> {
             .design
             .precision
             .is_some_and(|precision| is_refused || precision.is_reached(&self.tally.figure));
+        if self.design.precision.is_some() && !is_enough && self.tally.runs == self.design.replications {
+            self.imprecise += 1;
+        }
         let is_last = is_enough || self.tally.runs == self.design.replications;
         if is_last
             && let Some(row) =
@@ -166,7 +183,12 @@ impl<'a> Rows<'a> {
 
     /// What all runs came to, and the rows as JSON, if the table keeps them.
     pub fn end(self) -> (Status, Vec<Value>) {
-        (self.status, self.table.end())
+        let rows = self.table.end();
+        if self.imprecise > 0 {
+            let (points, runs) = (self.imprecise, self.design.replications);
+            complain!("{points} points have not reached the precision in {runs} runs");
+        }
+        (self.status, rows)
     }
 }
 

@@ -195,6 +195,9 @@ impl<'a> Table<'a> {
         {
             say!("\nRMS of the difference between the {ratios} ratios and 1: {:.1} %", rms * 100.0);
         }
+        if let Some(unused) = self.measured.as_ref().and_then(Measured::unused) {
+            complain!("{unused}");
+        }
         self.kept.unwrap_or_default()
     }
 

@@ -142,6 +142,8 @@ fn a_changed_part_is_never_a_panic() {
         ("{\"layout\"", "{\"more\":0,\"layout\""),
         ("{\"layout\"", "[\"layout\""),
         ("\"orders_done\":1", "\"orders_done\":-1"),
+        ("\"orders_done\":1", "\"orders_done\":0"),
+        ("\"simulated_s\":", "\"simulated_s\":1"),
     ] {
         assert!(rest.contains(old), "{old}");
         put(&folder, "changed.jsonl", &format!("{head}\n{}", rest.replacen(old, new, 1)));

@@ -32,7 +32,7 @@ fn replications_are_runs_with_other_seeds() {
     let deviation = (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / 2.0).sqrt();
     let is_near = |name: &str, wanted: f64| (row[name].as_f64().expect("a number") - wanted).abs() < 1e-9;
     assert!(deviation > 0.0 && is_near("seconds_per_order", mean), "{row} for {values:?}");
-    assert!(is_near("half_width", 4.303 * deviation / 3.0_f64.sqrt()), "{row} for {values:?}");
+    assert!(is_near("half_width", 4.302_652_729_749_46 * deviation / 3.0_f64.sqrt()), "{row} for {values:?}");
     assert_eq!((&row["runs"], &row["finished_runs"]), (&Value::from(3), &Value::from(3)));
 
     let output = autogen(&folder, &[&sweep[..], &["csv"]].concat());
@@ -79,7 +79,7 @@ fn points_have_the_same_seeds_and_are_compared_run_by_run() {
     let is_near = |key: &str, wanted: f64| (rows[1][key].as_f64().expect("a number") - wanted).abs() < 1e-9;
     assert!(is_near("difference", mean(&differences)), "{} for {differences:?}", rows[1]);
     assert!(
-        is_near("difference_half_width", 4.303 * deviation(&differences) / 3.0_f64.sqrt()),
+        is_near("difference_half_width", 4.302_652_729_749_46 * deviation(&differences) / 3.0_f64.sqrt()),
         "{}",
         rows[1]
     );
@@ -103,6 +103,10 @@ fn replications_stop_at_the_precision_whatever_the_jobs_are() {
         output
     };
     let output = sweep("1.2%", "1");
+    let not_reached =
+        |output: &Output| errors(output).contains("points have not reached the precision in 12 runs");
+    assert!(!not_reached(&output), "{}", errors(&output));
+    assert!(not_reached(&sweep("0.01%", "1")));
     for jobs in ["2", "7"] {
         assert!(sweep("1.2%", jobs).stdout == output.stdout, "{jobs} jobs");
     }
@@ -163,6 +167,15 @@ fn wrong_rules_are_status_2() {
         (&["--warm-up=-3orders"], "--warm-up takes `auto`"),
         (&["--set", "supply.seed=1,3", "--replications", "3"], "1 and 3 are less than 3 apart"),
         (
+            &["--set", "supply.seed=4294967295,1", "--replications", "3"],
+            "4294967295 and 1 are less than 3 apart",
+        ),
+        (
+            &["--io-delay", "random:0,random:18446744073709551615", "--replications", "2"],
+            "18446744073709551615 and 0 are less than 2 apart",
+        ),
+        (&["--until-precision", "2%", "--replications", "4"], "looks at a point after 5 runs"),
+        (
             &["--set", "supply.seed=1,101", "--until-precision", "2%", "--replications", "101"],
             "less than 101 apart",
         ),
@@ -217,4 +230,20 @@ fn orders_without_end_are_made_until_the_time_limit() {
     assert_eq!(alone["trace_hash"], row["trace_hash"]);
     let items = alone["items"].as_array().expect("a list");
     assert!(!items.is_empty() && items.iter().all(|item| item["carrier"] != "supply"), "{items:?}");
+}
+
+#[test]
+fn runs_in_which_nothing_is_drawn_are_the_same() {
+    let folder = folder("sweep_same");
+    let layout = example("ariac2021/default.json");
+    put(&folder, "list.json", super::sweep::ONE_PART);
+    let cells = |more: &[&str]| -> Vec<String> {
+        let sweep = ["sweep", &layout, "--scenario", "list.json", "--replications", "3"];
+        let output = autogen(&folder, &[&sweep[..], more].concat());
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        let text = printed(&output);
+        text.lines().nth(1).expect("a row").split_whitespace().map(String::from).collect()
+    };
+    assert_eq!(cells(&[])[5..9], ["same", "3", "of", "3"]);
+    assert_ne!(cells(&["--io-delay", "random"])[6], "same");
 }

@@ -281,7 +281,10 @@ fn measured_figures_stand_beside_their_rows() {
     let rms = ((square(here / 20.0) + square(here / 40.0)) / 2.0).sqrt();
     assert!((json(&output)["rms"].as_f64().expect("a figure") - rms).abs() < 1e-12);
 
-    let text = printed(&sweep("text"));
+    let output = sweep("text");
+    let unused = "figures.csv: line 6: the sweep has no point with agv.capacity 9, layout default";
+    assert!(errors(&output).contains(unused), "{}", errors(&output));
+    let text = printed(&output);
     assert!(text.lines().next().is_some_and(|l| l.contains("s/order   measured   ratio")), "{text}");
     let cells: Vec<&str> = text.lines().nth(1).expect("a row").split_whitespace().collect();
     let ratio = format!("{:.3}", here / 20.0);
@@ -507,6 +510,18 @@ fn without_orders_and_a_goal_rows_have_the_items_of_an_hour() {
 
 /// What a compiler says has many lines, a row has one.
 #[cfg(unix)]
+#[test]
+fn a_layout_that_cannot_be_read_changes_no_column() {
+    let folder = folder("sweep_beside_broken");
+    let line = a_to_b(&folder);
+    put(&folder, "broken.json", "{");
+    let head = |layouts: &[&str]| {
+        let output = autogen(&folder, &[&["sweep"], layouts, &["--format", "csv"]].concat());
+        printed(&output).lines().next().map(String::from)
+    };
+    assert_eq!(head(&[&line, "broken.json"]), head(&[&line]));
+}
+
 #[test]
 fn controllers_that_cannot_be_compiled_are_a_reason_in_one_line() {
     let folder = folder("sweep_without_controllers");

@@ -60,6 +60,11 @@ pub struct Project {
 }
 
 impl Project {
+    /// Whether replications of this line may differ; `plant` is one of them.
+    pub fn differs(&self, plant: &runtime_sim::line::Line) -> bool {
+        self.drawn.is_some() || plant.is_drawn()
+    }
+
     /// What the simulator needs for a replication: that of the scenario is 0, another one adds its number to the seed. A
     /// supply that is a list stays as it is.
     pub fn replication(&self, number: u32) -> runtime_sim::line::Line {

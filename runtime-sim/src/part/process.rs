@@ -94,6 +94,12 @@ impl Process {
         self.times.iter().map(Distribution::shortest_ms).min().unwrap_or(0)
     }
 
+    /// Whether the seed of a run decides how long its cycles take, or what becomes of items.
+    pub fn is_drawn(&self) -> bool {
+        let is_open = |reject: &Reject| reject.share > 0.0 && reject.share < 1.0;
+        self.times.iter().any(Distribution::is_drawn) || self.rejects.iter().any(is_open)
+    }
+
     /// Pairs of a kind and one that its items may become, by name.
     pub fn made(&self) -> impl Iterator<Item = [&str; 2]> {
         let all = self.makes.iter().chain(self.rejects.iter().map(|reject| &reject.kinds));

@@ -116,6 +116,15 @@ impl Distribution {
         }
     }
 
+    /// Whether two cycles may take different times.
+    pub fn is_drawn(&self) -> bool {
+        match self {
+            Self::Fixed(_) => false,
+            Self::Uniform { shortest, longest } | Self::Triangular { shortest, longest, .. } => shortest < longest,
+            Self::Normal { within, .. } | Self::Exponential { within, .. } => within[0] < within[1],
+        }
+    }
+
     /// The time for a number between 0 and 1, of which a share `drawn` of all times is shorter; whole milliseconds.
     pub fn time_ms(&self, drawn: f64) -> u64 {
         let time = match *self {
