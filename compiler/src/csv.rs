@@ -4,9 +4,10 @@ use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 
 /// A field as it is written: in quotes if it needs them, and with an apostrophe before it if a spreadsheet would
-/// compute it. Numbers stay as they are. [`parse`] takes the apostrophe away.
+/// compute it, or if it begins with apostrophes before such a text. Numbers stay as they are. [`parse`] takes the
+/// apostrophe away.
 pub fn field(text: &str) -> String {
-    let text = if is_formula(text) { format!("'{text}") } else { text.to_string() };
+    let text = if is_formula(text.trim_start_matches('\'')) { format!("'{text}") } else { text.to_string() };
     match text.contains([',', ';', '"', '\n', '\r']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text,
@@ -100,7 +101,8 @@ impl Reader<'_> {
         text += self.text[plain..self.at].trim_end();
         let end = start + self.text[start..self.at].trim_end().len();
         let text = text.trim();
-        let text = text.strip_prefix('\'').filter(|rest| is_formula(rest)).unwrap_or(text);
+        let text =
+            text.strip_prefix('\'').filter(|rest| is_formula(rest.trim_start_matches('\''))).unwrap_or(text);
         Field { text: text.into(), span: Span::new(self.file, start, end.max(start)) }
     }
 
@@ -159,6 +161,10 @@ mod tests {
             ("=1+1", "'=1+1"),
             ("@SUM(1;2)", "\"'@SUM(1;2)\""),
             ("+a", "'+a"),
+            ("'+a", "''+a"),
+            ("''=", "'''="),
+            ("'a", "'a"),
+            ("'-5", "'-5"),
             ("-x < 3", "'-x < 3"),
             ("-0.5", "-0.5"),
             ("+1e-3", "+1e-3"),

@@ -5,6 +5,7 @@ use super::names::{Declaration, What};
 use crate::device::{Device, type_text};
 use crate::source::{Sources, Span};
 use crate::spec::ast::{self, DeviceMember, Name};
+use crate::spec::written;
 use runtime_sim::device::Extent;
 use runtime_sim::part::ALL;
 use std::sync::Arc;
@@ -189,9 +190,8 @@ fn rule(tree: Option<&ast::Rule>) -> String {
     }
 }
 
-/// The words of a text on one line.
 fn words(sources: &Sources, span: Span) -> String {
-    crate::plain::line(&sources.text(span).split_whitespace().collect::<Vec<_>>().join(" "))
+    written::on_one_line(sources.text(span))
 }
 
 fn typed(sources: &Sources, ty: &ast::Type, value: Option<&ast::Expr>) -> String {

@@ -8,7 +8,7 @@ use crate::ir::{
 };
 use crate::plain;
 use crate::source::Span;
-use crate::spec::ast;
+use crate::spec::{ast, written};
 
 impl Context<'_, '_> {
     /// Those of its interfaces, in the order in which it names them, then its own.
@@ -92,8 +92,7 @@ impl Context<'_, '_> {
             }
         };
         let Some(kind) = kind else { return };
-        let words: Vec<_> = self.checker.sources.text(tree.span).split_whitespace().collect();
-        let text = plain::line(&words.join(" "));
+        let text = written::on_one_line(self.checker.sources.text(tree.span));
         let (severity, told) = match &tree.reaction {
             ast::Reaction::Fault => {
                 (Severity::Line, format!("not: {}", text.strip_prefix("invariant ").unwrap_or(&text)))

@@ -5,7 +5,7 @@ use super::names::Space;
 use super::sequence;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Asking, ExprKind, Place, Scalar, StateId};
-use crate::spec::ast;
+use crate::spec::{ast, written};
 use std::collections::BTreeMap;
 
 /// The beginning, before the first step.
@@ -270,20 +270,17 @@ fn transition(
 }
 
 fn guard_text(context: &Context, guard: ast::Guard) -> String {
-    let written = |span| {
-        let words: Vec<_> = context.checker.sources.text(span).split_whitespace().collect();
-        crate::plain::line(&words.join(" "))
-    };
+    let on_one_line = |span| written::on_one_line(context.checker.sources.text(span));
     match guard {
-        ast::Guard::Written(span) => match written(span).as_str() {
+        ast::Guard::Written(span) => match on_one_line(span).as_str() {
             "true" => "at once".into(),
             text => text.into(),
         },
         ast::Guard::FirstStep => "the first step".into(),
         ast::Guard::AtOnce => "at once".into(),
-        ast::Guard::Done(span) => format!("{} is done", written(span)),
-        ast::Guard::Failed(span) => format!("{} has failed", written(span)),
-        ast::Guard::After(span) => format!("after {}", written(span)),
+        ast::Guard::Done(span) => format!("{} is done", on_one_line(span)),
+        ast::Guard::Failed(span) => format!("{} has failed", on_one_line(span)),
+        ast::Guard::After(span) => format!("after {}", on_one_line(span)),
     }
 }
 

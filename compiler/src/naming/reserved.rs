@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 const WORDS: &str = "
     abs abstract acos action add adr and and_then andn any any_bit any_char any_chars any_date
     any_chars any_derived any_duration any_elementary any_int any_magnitude any_num any_real any_signed
-    any_string any_unsigned array asin at atan atan2 bitadr bool by byte cal calc calcn case catch
+    any_string any_unsigned adrinst array asin at atan atan2 bit bitadr bool by byte cal calc calcn case catch
     cd ceil char class concat config configuration constant continue cos ctd ctu ctud cu date
     date_and_time delete derivative dint div divtime do dref dt dword else elsif en end_action
     end_case end_class end_configuration end_for end_function end_function_block end_get end_if
@@ -15,17 +15,18 @@ const WORDS: &str = "
     end_step end_struct end_task end_test_function_block end_test_program end_transition end_type
     end_union end_var end_while endtry eno eq exit exp expt extends f_edge f_trig false final
     finally find floor for from function function_block ge get gt hysteresis if implements inc
-    indexof initial_step insert int integral interface internal interval jmp jmpc jmpcn ld ldate
+    indexof ini initial_step insert int integral interface internal interval jmp jmpc jmpcn ld ldate
     ldate_and_time ldn ldt le left len limit lint ln log lower_bound lreal lt ltime ltime_of_day
     ltod lword main max method mid min mod move mul multime mux namespace ne new nil non_retain not
     null of on or or_else orn overlap override params persistent pid plc_prg pointer priority private
     program property protected public pv r r1 r_edge r_trig ramp read_only read_write real ref ref_to
     reference repeat replace reset_ld resource ret retain retc retcn return right rol ror round rs
     rtc s s1 sel self sema set shl shr sin single sint sizeof sqrt sr st stat step stn string struct
-    sub super tan task test_function_block test_program then this throw time time_of_day to tod tof
-    ton tp transition true trunc try type udint uint ulint union union_end until upper_bound using
-    usint var var_access var_config var_external var_global var_in_out var_input var_output var_stat
-    var_temp wchar while with word wstring xor xorn
+    sub super tan task test_and_set test_function_block test_program then this throw time time_of_day to tod tof
+    ton tp transition true trunc trunc_int try type udint uint ulint union union_end until upper_bound using
+    usint uxint var var_access var_config var_external var_generic var_global var_in_out var_inst var_input var_output var_stat
+    var_temp wchar while with word wstring xint xor xorn
+    xsizeof xword
 ";
 
 /// Function blocks of the library of OpenPLC's runtime v3 that stand in no other list.
