@@ -27,6 +27,16 @@ fn of_urdf(text: &str, options: &urdf::Options) -> String {
     }
 }
 
+fn of_lif(text: &str) -> String {
+    let mut sources = Sources::default();
+    let file = sources.add("hall.json", text);
+    let options = lif::Options { vehicle: None, name: Some("cart") };
+    match lif::import(&sources, file, &options) {
+        Ok(imported) => imported.text,
+        Err(found) => panic!("{text}\n{}", autogen_tests::plain(&sources, &found)),
+    }
+}
+
 /// The numbers of a list in a device text.
 fn numbers(text: &str, key: &str) -> Vec<f64> {
     let (_, behind) = text.split_once(&format!("{key}: [")).unwrap_or_else(|| panic!("no {key} in {text}"));
@@ -58,6 +68,44 @@ fn written(lengths: &[f64; 7], offsets: &[f64; 6], signs: &[f64; 6]) -> String {
         "<link name=\"tool0\"/>\n<joint name=\"end\" type=\"fixed\"><parent link=\"l6\"/><child link=\"tool0\"/>\
          <origin xyz=\"0 0 {c4}\"/></joint>\n</robot>\n"
     )
+}
+
+/// What the text lacks of the file, or has otherwise, is said.
+#[test]
+fn notes_tell_what_is_left_out() {
+    let cases: [(&str, &[&str]); 5] = [
+        (
+            "urdf/fingers_and_capsules",
+            &[
+                "no body is written for links that do not move with a link of the arm: finger",
+                "a box contains the capsule: l3",
+                "direction: z; length: 0.5; radius: 0.05;",
+            ],
+        ),
+        (
+            "urdf/no_shapes",
+            &["the file has no collision shapes", "`masses` is left out: the file lacks it for l2, l3"],
+        ),
+        (
+            "urdf/partly",
+            &[
+                "`efforts` is left out: the file lacks it for j2",
+                "j2: the narrower limits of <safety_controller>",
+            ],
+        ),
+        (
+            "lif/slow_back",
+            &["parameter speed: real := 0.3;", "edges have different speeds; the vehicle has the least"],
+        ),
+        ("lif/parallel_edges", &["parameter speed: real := 0.3;", "also on edges without a velocity: e4"]),
+    ];
+    for (path, wanted) in cases {
+        let text = fixture(path);
+        let text = if path.starts_with("urdf") { of_urdf(&text, &URDF) } else { of_lif(&text) };
+        for part in wanted {
+            assert!(text.contains(part), "{path}: no `{part}` in {text}");
+        }
+    }
 }
 
 /// A file that is small, and has more elements than are read.
@@ -241,10 +289,7 @@ fn shapes_of_links_become_bodies() {
 
 #[test]
 fn a_track_becomes_a_vehicle() {
-    let mut sources = Sources::default();
-    let file = sources.add("hall.json", fixture("lif/right"));
-    let options = lif::Options { vehicle: None, name: Some("cart") };
-    let device = lif::import(&sources, file, &options).expect("a file that is right").text;
+    let device = of_lif(&fixture("lif/right"));
     insta::assert_snapshot!("imported_track", device);
     let automaton = "automaton Cart on cart { initial -> Going {}
         state Going = sequence { drive(2); drive(0); } -> Done {} else Done {}

@@ -28,6 +28,9 @@ pub struct Options<'a> {
 /// Reads a mesh.
 pub type Mesh<'a> = dyn Fn(&str) -> Result<Vec<u8>, String> + 'a;
 
+/// No joint turns more slowly, rad/s: less is hardly meant.
+const SLOWEST: f64 = 1e-4;
+
 /// A device text for the arm that the file describes.
 pub fn import(sources: &Sources, file: FileId, options: &Options) -> Result<Imported, Vec<Diagnostic>> {
     let root = super::xml::parse(&sources.file(file).text, file).map_err(|error| vec![*error])?;
@@ -103,7 +106,17 @@ fn joints(robot: &Robot, chain: &Chain, notes: &mut Vec<String>) -> Result<Vec<J
                 continue;
             }
         };
+        if joint.has_soft_limits {
+            notes.push(format!("{name}: the narrower limits of <safety_controller> are not taken over"));
+        }
         let speed = joint.velocity.filter(|speed| *speed > 0.0);
+        if let Some(speed) = speed.filter(|speed| *speed < SLOWEST) {
+            let message = format!("the velocity of {name}, {speed} rad/s, is less than {SLOWEST}");
+            found.push(
+                Diagnostic::new("E1104", joint.span, message)
+                    .help("correct it, or leave it out: then it is a parameter"),
+            );
+        }
         if speed.is_none() {
             notes.push(format!("{name} has no velocity in the file; it is a parameter of the device"));
         }
@@ -118,5 +131,29 @@ fn joints(robot: &Robot, chain: &Chain, notes: &mut Vec<String>) -> Result<Vec<J
             friction: joint.friction,
         });
     }
-    if found.is_empty() { Ok(joints) } else { Err(found) }
+    if found.is_empty() {
+        notes.extend(left_out(&joints));
+        Ok(joints)
+    } else {
+        Err(found)
+    }
+}
+
+/// What the device has for all joints or for none, and the file for some of them; masses also if it has none.
+fn left_out(joints: &[Joint]) -> Vec<String> {
+    type Has = fn(&Joint) -> bool;
+    let lists: [(&str, &str, Has); 4] = [
+        ("masses", "links", |joint| joint.mass.is_some()),
+        ("efforts", "joints", |joint| joint.effort.is_some()),
+        ("damping", "joints", |joint| joint.damping.is_some()),
+        ("friction", "joints", |joint| joint.friction.is_some()),
+    ];
+    let note = |(name, of, has): (&str, &str, Has)| {
+        let without = joints.iter().filter(|joint| !has(joint));
+        let without: Vec<&str> =
+            without.map(|joint| if of == "links" { &joint.link } else { &joint.name }.as_str()).collect();
+        let is_told = !without.is_empty() && (without.len() < joints.len() || of == "links");
+        is_told.then(|| format!("`{name}` is left out: the file lacks it for {}", without.join(", ")))
+    };
+    lists.into_iter().filter_map(note).collect()
 }

@@ -7,6 +7,9 @@ use crate::source::{Span, Spanned};
 use runtime_sim::point::Point;
 use std::collections::{BTreeSet, HashMap};
 
+/// No vehicle is slower, m/s: less is hardly meant.
+const SLOWEST: f64 = 1e-3;
+
 pub struct Network {
     pub project: String,
     pub vehicle: String,
@@ -248,13 +251,16 @@ fn edge(decoder: &mut Decoder, json: &Json, places: &Places, found: &Network) ->
         _ => None,
     });
     let properties = objects.into_iter().find(is_of)?;
-    let speed =
-        find(properties, "maxSpeed").and_then(|speed| decoder.number_in(speed, "maxSpeed", 0.0..=100.0));
+    let speed = find(properties, "maxSpeed").and_then(|json| {
+        let speed = decoder.number_in(json, "maxSpeed", 0.0..=100.0)?;
+        // 0 stands for no limit.
+        if speed > 0.0 { decoder.number_in(json, "maxSpeed", SLOWEST..=100.0) } else { None }
+    });
     let (own, from, to) = (own?, from?, to?);
     if let Some(trajectory) = find(properties, "trajectory") {
         straight(decoder, trajectory, &own, [found.nodes[from].at, found.nodes[to].at]);
     }
-    Some(Edge { id: own, from, to, speed: speed.filter(|speed| *speed > 0.0) })
+    Some(Edge { id: own, from, to, speed })
 }
 
 /// Tracks are straight from node to node: a curve is refused if one of its control points is beside that line.

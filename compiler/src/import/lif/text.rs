@@ -4,6 +4,7 @@ use super::read::Network;
 use super::track::Track;
 use crate::import::text::number;
 use crate::import::{Imported, distinct, identifier};
+use crate::layout::decode::listing;
 use crate::plain;
 use std::fmt::Write;
 
@@ -55,6 +56,17 @@ fn told(track: &Track) -> Vec<String> {
     }
     if let Some(speed) = track.speed.filter(|_| track.has_speeds) {
         notes.push(format!("edges have different speeds; the vehicle has the least, {speed} m/s, on all"));
+    }
+    let nameless: Vec<&str> = track.without_speed.iter().map(String::as_str).collect();
+    match track.speed {
+        Some(speed) if !nameless.is_empty() => {
+            notes.push(format!(
+                "the vehicle has {speed} m/s also on edges without a velocity: {}",
+                listing(&nameless)
+            ));
+        }
+        None => notes.push("no edge has a velocity; it is a parameter of the device".into()),
+        Some(_) => {}
     }
     if track.places.len() < track.nodes.len() {
         notes.push("only nodes of stations are goals".into());

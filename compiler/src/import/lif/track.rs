@@ -3,6 +3,7 @@
 use super::read::{Network, Node};
 use crate::diagnostic::Diagnostic;
 use crate::layout::decode::{Decoder, listing};
+use crate::source::Spanned;
 use runtime_sim::point::Point;
 
 /// Nodes one behind the other.
@@ -12,10 +13,12 @@ pub struct Track {
     pub closed: bool,
     /// There are edges in the other direction too.
     pub both_ways: bool,
-    /// Least of its edges, m/s; none if no edge has one.
+    /// Least of its edges, whatever their direction, m/s; none if no edge has one.
     pub speed: Option<f64>,
     /// Edges have different speeds.
     pub has_speeds: bool,
+    /// Names of edges that have none.
+    pub without_speed: Vec<String>,
     /// Numbers of those of its nodes that are goals.
     pub places: Vec<usize>,
     /// From the first corner to each node, m.
@@ -130,7 +133,23 @@ fn track(decoder: &mut Decoder, network: &Network, mut nodes: Vec<usize>, closed
             );
             return None;
         }
-        (true, _) => {}
+        (true, false) => {
+            let behind = legs(&nodes).into_iter().find_map(|(from, to)| edge(to, from));
+            if let Some(edge) = behind {
+                let Spanned { value, span } = &edge.id;
+                decoder.report(
+                    Diagnostic::new(
+                        "E1112",
+                        *span,
+                        format!("the edge {value} leads against the others of its track"),
+                    )
+                    .note("a track is driven in one direction throughout, or in both")
+                    .help("leave it out, or add the other edges of its direction"),
+                );
+                return None;
+            }
+        }
+        (true, true) => {}
     }
     let at: Vec<Point> = nodes.iter().map(|node| network.nodes[*node].at).collect();
     let mut distances = vec![0.0];
@@ -152,9 +171,20 @@ fn track(decoder: &mut Decoder, network: &Network, mut nodes: Vec<usize>, closed
         );
         return None;
     }
-    let speeds: Vec<f64> = legs(&nodes).into_iter().filter_map(|(from, to)| edge(from, to)?.speed).collect();
+    let edges = || network.edges.iter().filter(|edge| nodes.contains(&edge.from));
+    let speeds: Vec<f64> = edges().filter_map(|edge| edge.speed).collect();
     let speed = speeds.iter().copied().reduce(f64::min);
-    let has_speeds = speeds.iter().any(|other| Some(*other) != speed)
-        || (!speeds.is_empty() && speeds.len() < legs(&nodes).len());
-    Some(Track { nodes, closed, both_ways: forth && back, speed, has_speeds, places, distances })
+    let has_speeds = speeds.iter().any(|other| Some(*other) != speed);
+    let without_speed =
+        edges().filter(|edge| edge.speed.is_none()).map(|edge| edge.id.value.clone()).collect();
+    Some(Track {
+        nodes,
+        closed,
+        both_ways: forth && back,
+        speed,
+        has_speeds,
+        without_speed,
+        places,
+        distances,
+    })
 }

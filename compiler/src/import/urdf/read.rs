@@ -40,6 +40,11 @@ pub enum Geometry {
         radius: f64,
         length: f64,
     },
+    /// The same, with half a sphere at each end.
+    Capsule {
+        radius: f64,
+        length: f64,
+    },
     Sphere(f64),
     Mesh {
         name: String,
@@ -68,6 +73,8 @@ pub struct Joint {
     pub friction: Option<f64>,
     /// It follows another joint.
     pub mimics: bool,
+    /// A controller keeps it within narrower limits than its own.
+    pub has_soft_limits: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -191,6 +198,24 @@ impl Reader {
         found
     }
 
+    /// Refuses a second one of elements of which only the first would count.
+    fn once(&mut self, element: &Element, names: &[&str]) {
+        for name in names {
+            let mut all = element.all(name);
+            if let (Some(first), Some(second)) = (all.next(), all.next()) {
+                self.report(
+                    Diagnostic::new(
+                        "E1103",
+                        second.span,
+                        format!("<{}> has two elements <{name}>", element.name),
+                    )
+                    .other(first.span, "the first one")
+                    .help("leave one of them out"),
+                );
+            }
+        }
+    }
+
     fn name(&mut self, element: &Element, what: &str) -> Option<Spanned<String>> {
         let name = self.attribute(element, "name")?;
         if name.value.trim().is_empty() {
@@ -256,6 +281,7 @@ impl Reader {
 
     fn link(&mut self, element: &Element) -> Option<Link> {
         let name = self.name(element, "link");
+        self.once(element, &["inertial"]);
         let mass = element.child("inertial").and_then(|inertial| inertial.child("mass"));
         let mass = mass.and_then(|mass| self.number(mass, "value"));
         let shapes = element.all("collision").filter_map(|collision| self.shape(collision)).collect();
@@ -285,9 +311,14 @@ impl Reader {
                 }
                 Geometry::Box(Point::new(x, y, z))
             }
-            "cylinder" | "capsule" => {
+            kind @ ("cylinder" | "capsule") => {
                 let (radius, length) = (self.over_0(shape, "radius"), self.over_0(shape, "length"));
-                Geometry::Cylinder { radius: radius?, length: length? }
+                let (radius, length) = (radius?, length?);
+                if kind == "capsule" {
+                    Geometry::Capsule { radius, length }
+                } else {
+                    Geometry::Cylinder { radius, length }
+                }
             }
             "sphere" => Geometry::Sphere(self.over_0(shape, "radius")?),
             "mesh" => {
@@ -326,6 +357,10 @@ impl Reader {
 
     fn joint(&mut self, element: &Element) -> Option<Joint> {
         let name = self.name(element, "joint");
+        self.once(
+            element,
+            &["parent", "child", "origin", "axis", "limit", "dynamics", "mimic", "safety_controller"],
+        );
         let motion = self.motion(element);
         let (parent, child) = (self.named(element, "parent"), self.named(element, "child"));
         let origin = self.origin(element);
@@ -354,6 +389,9 @@ impl Reader {
             damping,
             friction,
             mimics: element.child("mimic").is_some(),
+            has_soft_limits: element.child("safety_controller").is_some_and(|safety| {
+                ["soft_lower_limit", "soft_upper_limit"].iter().any(|limit| safety.attribute(limit).is_some())
+            }),
         })
     }
 

@@ -46,6 +46,19 @@ pub fn bodies(
             }
         }
     }
+    if robot.links.iter().all(|link| link.shapes.is_empty()) {
+        notes.push("the file has no collision shapes: add bodies, or contact of the arm is not found".into());
+    }
+    let others: Vec<&str> = (robot.links.iter().enumerate())
+        .filter(|(link, of)| !of.shapes.is_empty() && carried.iter().all(|(carried, ..)| carried != link))
+        .map(|(_, link)| link.name.value.as_str())
+        .collect();
+    if !others.is_empty() {
+        notes.push(format!(
+            "no body is written for links that do not move with a link of the arm: {}",
+            listed(others.into_iter())
+        ));
+    }
     let mut bodies = Vec::new();
     let mut looked_at = 0;
     let mut told: Vec<(String, Vec<&str>)> = Vec::new();
@@ -101,6 +114,7 @@ fn form(shape: &Shape, seen: &Pose, options: &Options) -> Result<(Form, Option<S
             Ok((form, Some("a box contains the sphere".into())))
         }
         Geometry::Cylinder { radius, length } => Ok(cylinder(*radius, *length, seen)),
+        Geometry::Capsule { radius, length } => Ok(capsule(*radius, *length, seen)),
         Geometry::Mesh { name, scale } => {
             let Some(read) = options.mesh else {
                 return Err(
@@ -155,15 +169,30 @@ fn cylinder(radius: f64, length: f64, seen: &Pose) -> (Form, Option<String>) {
     let reach = |cosine: f64| half * cosine.abs() + radius * (1.0 - cosine * cosine).max(0.0).sqrt();
     let around = Point::new(reach(direction.x), reach(direction.y), reach(direction.z));
     let boxed = Form::Box { low: seen.position - around, high: seen.position + around };
-    let axis = along(direction);
     let capsule = PI * radius * radius * (length + 4.0 / 3.0 * radius);
-    match axis {
+    match along(direction) {
         Some(axis) if capsule < 4.0 * radius * radius * length => {
-            let unit =
-                [Point::new(1.0, 0.0, 0.0), Point::new(0.0, 1.0, 0.0), Point::new(0.0, 0.0, 1.0)][axis];
-            let from = seen.position - unit.scaled(half);
-            (Form::Capsule { from, axis, length, radius }, Some("a capsule contains the cylinder".into()))
+            (lying(axis, radius, length, seen), Some("a capsule contains the cylinder".into()))
         }
         _ => (boxed, Some("a box contains the cylinder".into())),
     }
+}
+
+/// The same capsule where it lies along an axis of the frame, else a box.
+fn capsule(radius: f64, length: f64, seen: &Pose) -> (Form, Option<String>) {
+    let direction = seen.axis(2);
+    if let Some(axis) = along(direction) {
+        return (lying(axis, radius, length, seen), None);
+    }
+    let reach = |cosine: f64| length / 2.0 * cosine.abs() + radius;
+    let around = Point::new(reach(direction.x), reach(direction.y), reach(direction.z));
+    let boxed = Form::Box { low: seen.position - around, high: seen.position + around };
+    (boxed, Some("a box contains the capsule".into()))
+}
+
+/// A capsule along an axis of the frame, about the place `seen`.
+fn lying(axis: usize, radius: f64, length: f64, seen: &Pose) -> Form {
+    let unit = [Point::new(1.0, 0.0, 0.0), Point::new(0.0, 1.0, 0.0), Point::new(0.0, 0.0, 1.0)][axis];
+    let from = seen.position - unit.scaled(length / 2.0);
+    Form::Capsule { from, axis, length, radius }
 }
