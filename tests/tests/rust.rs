@@ -17,6 +17,7 @@ use runtime_sim::run::{Seen, Stepping, run as simulate};
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader};
 
+
 /// Names and texts of the fixtures.
 fn fixtures() -> Vec<(String, String)> {
     let folder = root().join("tests/fixtures/rust");
@@ -273,49 +274,100 @@ fn the_line_runs_as_on_the_executor() {
 
 /// Words that are not those of the line, or of no scan of it: it begins with initial values and a fault, or with words
 /// that it would write itself.
-const RESTORE: &str = r#"use controllers::line;
+const RESTORE: &str = r#"use controllers::cells::{Cells, Wiring};
+use controllers::line;
+use controllers::retained::{UNCHECKED, check, check_word};
+use controllers::robot::Robot;
 use controllers::system::{NOT_RETAINED, System, SystemInputs};
 
-/// The words after some scans with `start`, and whether there is the fault, of a line that began with words.
+/// A line that was restored from words, if there are any.
+struct Line<'a> {
+    system: System,
+    robots: Vec<Robot<'static>>,
+    cells: Cells<'a>,
+    scans: usize,
+}
+
+impl<'a> Line<'a> {
+    fn new(memory: &'a mut line::Memory) -> Self {
+        Self { system: System::new(), robots: line::robots().into(), cells: memory.cells(), scans: 0 }
+    }
+
+    fn restore(&mut self, wiring: &Wiring, words: &[f64]) {
+        let mut rest = words.iter().copied();
+        self.system.restore(wiring, &mut self.robots, &mut self.cells, &mut || rest.next());
+        self.scans = 0;
+    }
+
+    /// Some scans with `start`: whether there was the fault.
+    fn run(&mut self, scans: usize) -> bool {
+        let mut is_lost = false;
+        for _ in 0..scans {
+            let inputs = SystemInputs { run_permit: true, start: self.scans > 0, reset: false };
+            let answer = self.system.scan(inputs, &line::WIRING, &mut self.robots, &mut self.cells);
+            self.scans += 1;
+            is_lost |= answer.fault_code == NOT_RETAINED;
+            assert!(!is_lost || !answer.running);
+        }
+        is_lost
+    }
+
+    fn words(&self) -> Vec<f64> {
+        let mut found = Vec::new();
+        self.system.retain(&line::WIRING, &self.robots, &self.cells, &mut |word| found.push(word));
+        found
+    }
+
+    fn shown(&self) -> String {
+        format!("{:?} {:?} {:?}", self.system, self.robots, self.cells)
+    }
+}
+
+/// The words after some scans with `start`, and whether there was the fault, of a line that began with words.
 fn after(words: Option<&[f64]>, scans: usize) -> (Vec<f64>, bool) {
     let mut memory = line::Memory::NEW;
-    let mut cells = memory.cells();
-    let mut robots = line::robots();
-    let mut system = System::new();
+    let mut line = Line::new(&mut memory);
     if let Some(words) = words {
-        let mut rest = words.iter().copied();
-        system.restore(&mut robots, &mut cells, &mut || rest.next());
+        line.restore(&line::WIRING, words);
     }
-    let mut is_lost = false;
-    for number in 0..scans {
-        let inputs = SystemInputs { run_permit: true, start: number > 0, reset: false };
-        let answer = system.scan(inputs, &line::WIRING, &mut robots, &mut cells);
-        is_lost |= answer.fault_code == NOT_RETAINED;
-        assert!(!is_lost || !answer.running);
-    }
-    let mut found = Vec::new();
-    system.retain(&robots, &cells, &mut |word| found.push(word));
-    (found, is_lost)
+    let is_lost = line.run(scans);
+    (line.words(), is_lost)
+}
+
+/// Words with the check that belongs to them.
+fn checked(mut words: Vec<f64>) -> Vec<f64> {
+    words.pop();
+    let sum = words.iter().fold(UNCHECKED, |sum, word| check(sum, *word));
+    words.push(check_word(sum));
+    words
+}
+
+/// The words of a line that begins with the fault.
+fn lost() -> Vec<f64> {
+    let mut words = after(None, 1).0;
+    words[1] = f64::from(NOT_RETAINED);
+    checked(words)
+}
+
+fn refused(words: &[f64], why: &str) {
+    assert_eq!(after(Some(words), 1), (lost(), true), "{why}");
+    after(Some(words), 50);
+}
+
+/// Its own words, in which a machine that begins anew is in its beginning.
+fn own() -> Vec<f64> {
+    let (kept, is_lost) = after(None, 50);
+    assert!(!is_lost && kept.len() > 200, "{}", kept.len());
+    let own = after(Some(&kept), 1).0;
+    assert!(own != kept && own.len() == kept.len());
+    own
 }
 
 #[test]
 fn words_of_another_line_are_not_taken() {
-    let (kept, is_lost) = after(None, 50);
-    assert!(!is_lost && kept.len() > 200, "{}", kept.len());
-    // From some states a machine begins anew.
-    let own = after(Some(&kept), 1).0;
-    assert!(own != kept && own.len() == kept.len());
-    let mut fresh = after(None, 1).0;
-    // The fault itself is retained.
-    fresh[2] = f64::from(NOT_RETAINED);
+    let own = own();
     assert_eq!(after(Some(&own), 1), (own.clone(), false), "its own words");
-    let refused = |words: &[f64], why: &str| {
-        let (found, is_lost) = after(Some(words), 1);
-        assert!(is_lost, "{why}");
-        assert_eq!((&found[..3], &found[4..]), (&fresh[..3], &fresh[4..]), "{why}");
-        after(Some(words), 50);
-    };
-    for length in 0..own.len() {
+    for length in 1..own.len() {
         refused(&own[..length], &format!("{length} words"));
     }
     refused(&[&own[..], &[0.0]].concat(), "a word too many");
@@ -323,12 +375,18 @@ fn words_of_another_line_are_not_taken() {
     for at in 0..own.len() {
         for wrong in [f64::NAN, f64::INFINITY, 0.5, -1.0, 99.0, 70_000.0, 3e9, 1e300] {
             let mut words = own.clone();
-            words[at] = wrong;
-            if !wrong.is_finite() {
-                refused(&words, &format!("word {at} is {wrong}"));
+            if words[at] == wrong {
                 continue;
             }
+            words[at] = wrong;
+            refused(&words, &format!("word {at} is {wrong}"));
+            if at + 1 == own.len() {
+                continue;
+            }
+            // As if it had been retained so.
+            let words = checked(words);
             let (found, is_lost) = after(Some(&words), 1);
+            assert!(is_lost || wrong.is_finite(), "word {at} is {wrong}");
             if !is_lost {
                 taken += 1;
                 assert_eq!(found, after(Some(&found), 1).0, "word {at} is {wrong}");
@@ -339,6 +397,58 @@ fn words_of_another_line_are_not_taken() {
     }
     // Of a value that fits nobody knows whether it was that.
     assert!(taken > 0);
+}
+
+#[test]
+fn words_of_two_scans_are_not_taken() {
+    let (earlier, later) = (after(None, 1).0, after(None, 50).0);
+    assert!(earlier.iter().zip(&later).filter(|(a, b)| a != b).count() > 5);
+    for at in 0..=earlier.len() {
+        let torn = [&earlier[..at], &later[at..]].concat();
+        match torn == earlier || torn == later {
+            true => assert!(!after(Some(&torn), 1).1, "torn at {at}"),
+            false => refused(&torn, &format!("torn at {at}")),
+        }
+    }
+}
+
+#[test]
+fn words_of_another_layout_are_not_taken() {
+    let own = own();
+    let other = Wiring { retained_of: line::WIRING.retained_of + 1, ..line::WIRING };
+    let mut memory = line::Memory::NEW;
+    let mut line = Line::new(&mut memory);
+    line.restore(&other, &own);
+    assert!(line.run(1));
+}
+
+#[test]
+fn where_nothing_was_retained_all_is_as_at_first() {
+    let fresh = (after(None, 1).0, false);
+    let blank = vec![0.0; fresh.0.len()];
+    assert_eq!(after(Some(&[]), 1), fresh);
+    assert_eq!(after(Some(&blank), 1), fresh);
+    refused(&blank[1..], "too few zeros");
+    refused(&[&blank[..], &[0.0]].concat(), "too many zeros");
+    for at in 1..blank.len() {
+        let mut words = blank.clone();
+        words[at] = 1.0;
+        refused(&words, &format!("one at {at}"));
+    }
+}
+
+#[test]
+fn whatever_happened_before_does_not_count() {
+    for words in [own(), Vec::new(), vec![1.0]] {
+        let (mut fresh, mut used) = (line::Memory::NEW, line::Memory::NEW);
+        let (mut fresh, mut used) = (Line::new(&mut fresh), Line::new(&mut used));
+        let first = used.shown();
+        used.run(77);
+        assert_ne!(used.shown(), first);
+        fresh.restore(&line::WIRING, &words);
+        used.restore(&line::WIRING, &words);
+        assert_eq!(used.shown(), fresh.shown());
+    }
 }
 "#;
 
