@@ -15,8 +15,8 @@ use autogen_tests::{Texts, ariac, many, root};
 use runtime_sim::device::Direction;
 use runtime_sim::run::{Seen, Stepping, run as simulate};
 use std::collections::BTreeSet;
-use std::io::{BufRead, BufReader};
-
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Command, Stdio};
 
 /// Names and texts of the fixtures.
 fn fixtures() -> Vec<(String, String)> {
@@ -226,6 +226,54 @@ fn fixtures_run_as_on_the_executor() {
         let wanted = [&wanted[..1], &wanted[2..3], &wanted[SYSTEM..SYSTEM + outputs]].concat().join(" ");
         assert_eq!(bits(&words), wanted, "scan {scan}");
     }
+    refuses_what_are_no_inputs(&workspace, &recording.inputs);
+}
+
+/// The host ends with an error, after a scan without permission, and takes nothing of the line.
+fn refuses_what_are_no_inputs(workspace: &Workspace, inputs: &str) {
+    let started: Vec<String> = (inputs.lines().take(2).zip(["1 0 0", "1 1 0"]))
+        .map(|(line, system)| format!("{system}{}\n", &line[system.len()..]))
+        .collect();
+    let next = started[1].trim_end();
+    let images = &next["1 1 0".len()..];
+    let first = images.split_whitespace().next().expect("the size of an image");
+    let cut = &next[..next.rfind(' ').expect("words")];
+    let host = |line: &str| {
+        let mut child = Command::new(workspace.program("examples/host"))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("a program that can be started");
+        let mut stdin = child.stdin.take().expect("a pipe");
+        write!(stdin, "{}{line}\n", started.concat()).expect("a program that reads its input");
+        drop(stdin);
+        let output = child.wait_with_output().expect("a program that ends");
+        let lines = String::from_utf8(output.stdout).expect("text");
+        (output.status.success(), lines.lines().map(String::from).collect::<Vec<String>>())
+    };
+    let (is_fine, lines) = host(next);
+    assert!(is_fine && lines.len() == 4, "{lines:?}");
+    let stopped = "1 0 0".replace('1', "0") + images;
+    let (_, wanted) = host(&stopped);
+    for (wrong, why) in [
+        (String::new(), "nothing"),
+        (format!("nan 0 0{images}"), "a permission that is none"),
+        (format!("2 0 0{images}"), "a permission that is none"),
+        (format!("1 x 0{images}"), "a start that is none"),
+        (cut.into(), "a word is missing"),
+        ("1 0 0".into(), "all images are missing"),
+        (format!("{next} 0"), "a word too many"),
+        (
+            next.replacen(&format!("0 {first} "), "0 18446744073709551615 ", 1),
+            "a size that is not that of the image",
+        ),
+    ] {
+        assert_ne!(wrong, next, "{why}");
+        let (is_fine, lines) = host(&wrong);
+        assert!(!is_fine, "{why}");
+        assert_eq!(lines, wanted[..3], "{why}");
+    }
 }
 
 #[test]
@@ -270,6 +318,8 @@ fn the_line_runs_as_on_the_executor() {
     links_without_a_panic(&workspace);
     workspace.put("controllers/tests/restore.rs", RESTORE);
     workspace.cargo(&["test", "--quiet", "-p", "controllers", "--test", "restore"]);
+    workspace.put("adapters/tests/images.rs", IMAGES);
+    workspace.cargo(&["test", "--quiet", "-p", "adapters", "--test", "images"]);
 }
 
 /// Words that are not those of the line, or of no scan of it: it begins with initial values and a fault, or with words
@@ -449,6 +499,64 @@ fn whatever_happened_before_does_not_count() {
         used.restore(&line::WIRING, &words);
         assert_eq!(used.shown(), fresh.shown());
     }
+}
+"#;
+
+/// A scan with an image of another size is none.
+const IMAGES: &str = r#"#![allow(unsafe_code)]
+
+use adapters::c_interface::{Image, Inputs, Outputs, autogen_close, autogen_open, autogen_scan, autogen_trace};
+
+#[test]
+fn images_of_another_size_are_refused() {
+    let text = include_str!("../../parameters.txt");
+    let mut message = [0; 200];
+    let mut length = 0;
+    let session =
+        unsafe { autogen_open(text.as_ptr(), text.len(), message.as_mut_ptr(), message.len(), &mut length) };
+    assert!(!session.is_null());
+    let layout = adapters::layout::Layout::compiled();
+    let mut image = Vec::new();
+    let sizes: Vec<[usize; 2]> = (layout.robots.iter())
+        .map(|robot| {
+            adapters::layout::publish(robot, false, &mut image);
+            [adapters::layout::input_words(robot), image.len()]
+        })
+        .collect();
+    let trace = || {
+        let mut words = vec![0.0; 100_000];
+        let count = unsafe { autogen_trace(session, words.as_mut_ptr(), words.len()) };
+        words.truncate(count);
+        words
+    };
+    let scan = |sizes: &[[usize; 2]]| {
+        let mut words: Vec<[Vec<f64>; 2]> = sizes.iter().map(|size| size.map(|size| vec![0.0; size])).collect();
+        let mut images = |which: usize| -> Vec<Image> {
+            words.iter_mut().map(|of| Image { words: of[which].as_mut_ptr(), count: of[which].len() }).collect()
+        };
+        let (inputs, outputs) = (images(0), images(1));
+        let mut answer = Outputs { fault_code: -5, ..Outputs::default() };
+        let system = Inputs { run_permit: 1, start: 0, reset: 0 };
+        let wrong = unsafe {
+            autogen_scan(session, system, inputs.as_ptr(), outputs.as_ptr(), sizes.len(), &mut answer)
+        };
+        (wrong, answer.fault_code)
+    };
+    assert_eq!(scan(&sizes), (0, 0));
+    let before = trace();
+    for (robot, which) in (0..sizes.len()).flat_map(|robot| [(robot, 0), (robot, 1)]) {
+        for size in [0, sizes[robot][which] + 1] {
+            let mut wrong = sizes.clone();
+            wrong[robot][which] = size;
+            let expected = if size == sizes[robot][which] { (0, 0) } else { (robot + 1, -5) };
+            assert_eq!(scan(&wrong), expected, "robot {robot}, image {which} of {size} words");
+        }
+    }
+    assert_eq!(scan(&sizes[1..]).0, 1);
+    assert_eq!(scan(&sizes[..sizes.len() - 1]), (sizes.len(), -5));
+    assert_eq!(scan(&[&sizes[..], &[[0, 0]]].concat()), (sizes.len() + 1, -5));
+    assert_eq!(trace(), before);
+    unsafe { autogen_close(session) };
 }
 "#;
 

@@ -109,6 +109,15 @@ pub fn latch(robot: &mut Robot, image: &[f64]) {
     }
 }
 
+/// How many numbers the image of its inputs has.
+pub fn input_words(robot: &Robot) -> usize {
+    match robot {
+        {%- for robot in robots %}
+        Robot::{{ robot.ty }}(_) => words_of::<{{ robot.module }}::Inputs>(),
+        {%- endfor %}
+    }
+}
+
 /// The process image of a robot's outputs.
 pub fn publish(robot: &Robot, {% if !has_outputs %}_{% endif %}running: bool, image: &mut Vec<f64>) {
     image.clear();
