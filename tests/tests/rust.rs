@@ -190,13 +190,16 @@ fn each_fixture_runs_as_on_the_executor() {
     }
 }
 
-/// Its adapters have nothing to publish.
+/// Its adapters have nothing to publish, and there are no cells.
 #[test]
 fn a_line_without_outputs_compiles_without_a_warning() {
-    let text = "automaton Idle on bin { initial state Waiting { when true {} } }";
-    let (system, sources) = instantiate(&[("idle.aut".into(), text.into())]);
-    let workspace = Workspace::write("without_outputs", &system, &sources);
-    workspace.cargo(&["clippy", "--quiet", "-p", "adapters", "--", "-D", "warnings"]);
+    for retained in ["", "retain all;"] {
+        let text =
+            format!("automaton Idle on bin {{ {retained} initial state Waiting {{ when true {{}} }} }}");
+        let (system, sources) = instantiate(&[("idle.aut".into(), text)]);
+        let workspace = Workspace::write("without_outputs", &system, &sources);
+        workspace.cargo(&["clippy", "--quiet", "-p", "adapters", "--", "-D", "warnings"]);
+    }
 }
 
 /// Outputs of the line, in front of those of its machines.
@@ -246,7 +249,7 @@ fn refuses_what_are_no_inputs(workspace: &Workspace, inputs: &str) {
             .spawn()
             .expect("a program that can be started");
         let mut stdin = child.stdin.take().expect("a pipe");
-        write!(stdin, "{}{line}\n", started.concat()).expect("a program that reads its input");
+        writeln!(stdin, "{}{line}", started.concat()).expect("a program that reads its input");
         drop(stdin);
         let output = child.wait_with_output().expect("a program that ends");
         let lines = String::from_utf8(output.stdout).expect("text");
@@ -254,7 +257,7 @@ fn refuses_what_are_no_inputs(workspace: &Workspace, inputs: &str) {
     };
     let (is_fine, lines) = host(next);
     assert!(is_fine && lines.len() == 4, "{lines:?}");
-    let stopped = "1 0 0".replace('1', "0") + images;
+    let stopped = format!("0 0 0{images}");
     let (_, wanted) = host(&stopped);
     for (wrong, why) in [
         (String::new(), "nothing"),

@@ -1,7 +1,7 @@
 //! A host of the controllers without the simulator. In each scan it does the same as a real host, over pipes
 //! instead of a fieldbus. A line of input has `run_permit start reset`, each 0 or 1, and then the input images of
 //! all robots, in layout order, each with its number of words before it. A line of output has `running`,
-//! `fault_code` and the output images.
+//! `fault_code` and the output images. It stores nothing, so each of its starts is a cold start.
 //!
 //! Where the inputs end, and where a line is not such a line, the last scan is one without `run_permit`: what it
 //! publishes holds the devices.
