@@ -20,6 +20,7 @@ mod modes;
 mod operator;
 mod property;
 mod retained;
+mod situation;
 mod system;
 mod value;
 

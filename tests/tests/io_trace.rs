@@ -5,7 +5,8 @@ use autogen::backend::st;
 use autogen::executor::Executor;
 use autogen::io_map::IoMap;
 use autogen_st_judge::machine::{Machine, Place};
-use autogen_tests::{Texts, examples, on_all_processors, text};
+use autogen_tests::{Texts, ariac, examples, on_all_processors, text};
+use runtime_sim::line::Pause;
 use runtime_sim::run::{Seen, Stepping, run};
 
 /// A text that follows a trace row by row.
@@ -51,14 +52,21 @@ impl Driven {
         }
     }
 
-    fn follow(&mut self, row: &str) {
+    /// As `docs/io-trace.md` says. In rows without power all values but inputs are those of the row before.
+    fn follow(&mut self, row: &str, power_offs: &[Pause]) {
+        let is_off = power_offs.iter().any(|off| off.at_scan < self.scans && self.scans < off.end());
+        if power_offs.iter().any(|off| off.end() == self.scans) {
+            self.machine.power_up();
+        }
         let values: Vec<f64> = row.trim_end().split(',').map(|v| v.parse().expect("a number")).collect();
         assert_eq!(values.len(), self.names.len());
         self.bytes += row.len();
         for (i, value) in values.iter().enumerate().filter(|(i, _)| self.is_input[*i]) {
             self.machine.write(self.places[i], *value);
         }
-        self.machine.scan().unwrap_or_else(|error| panic!("scan {}: {error}", self.scans));
+        if !is_off {
+            self.machine.scan().unwrap_or_else(|error| panic!("scan {}: {error}", self.scans));
+        }
         for (i, value) in values.iter().enumerate().filter(|(i, _)| !self.is_input[*i]) {
             let found = self.machine.read(self.places[i]);
             self.values += 1;
@@ -76,8 +84,13 @@ impl Driven {
 }
 
 fn driven((name, texts): &(String, Texts)) -> Driven {
+    driven_with_losses(name, texts, &[])
+}
+
+fn driven_with_losses(name: &str, texts: &Texts, power_offs: &[Pause]) -> Driven {
     let outcome = texts.compile();
-    let project = outcome.project.unwrap_or_else(|| panic!("{name}: a line that is right"));
+    let mut project = outcome.project.unwrap_or_else(|| panic!("{name}: a line that is right"));
+    project.plant.scenario.power_offs = power_offs.to_vec();
     let files = st::files(&project.system, &outcome.sources);
     let (_, columns) = st::mapped(&project.system, &outcome.sources, &IoMap::default());
     let mut driven = Driven::new(&files["portable/main.st"], &files["io.csv"], &columns.header());
@@ -85,7 +98,7 @@ fn driven((name, texts): &(String, Texts)) -> Driven {
     let mut observe = |seen: &Seen| {
         row.clear();
         columns.row(seen, &mut row);
-        driven.follow(&row);
+        driven.follow(&row, power_offs);
     };
     run(&project.plant, &mut Executor::new(&project.system), Stepping::EveryScan, &mut observe)
         .expect("a line that can be run");
@@ -112,4 +125,13 @@ fn the_text_follows_the_trace_of_every_example() {
             assert_eq!(now, *first, "{name}: `{global}` changes and has no column");
         }
     }
+}
+
+#[test]
+fn the_text_follows_a_trace_with_losses_of_power() {
+    let power_offs = [(3000, 500), (9001, 1), (15_000, 2)].map(|(at_scan, scans)| Pause { at_scan, scans });
+    let driven = driven_with_losses("default", &ariac("default"), &power_offs);
+    assert_eq!(driven.difference, None);
+    assert!(driven.scans > 20_000, "{}", driven.scans);
+    assert_eq!(driven.machine.get("warm_start"), 1.0);
 }

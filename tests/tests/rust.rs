@@ -15,7 +15,8 @@ use autogen_tests::{Texts, ariac, many, root};
 use runtime_sim::device::Direction;
 use runtime_sim::run::{Seen, Stepping, run as simulate};
 use std::collections::BTreeSet;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Command, Stdio};
 
 /// Names and texts of the fixtures.
 fn fixtures() -> Vec<(String, String)> {
@@ -189,13 +190,16 @@ fn each_fixture_runs_as_on_the_executor() {
     }
 }
 
-/// Its adapters have nothing to publish.
+/// Its adapters have nothing to publish, and there are no cells.
 #[test]
 fn a_line_without_outputs_compiles_without_a_warning() {
-    let text = "automaton Idle on bin { initial state Waiting { when true {} } }";
-    let (system, sources) = instantiate(&[("idle.aut".into(), text.into())]);
-    let workspace = Workspace::write("without_outputs", &system, &sources);
-    workspace.cargo(&["clippy", "--quiet", "-p", "adapters", "--", "-D", "warnings"]);
+    for retained in ["", "retain all;"] {
+        let text =
+            format!("automaton Idle on bin {{ {retained} initial state Waiting {{ when true {{}} }} }}");
+        let (system, sources) = instantiate(&[("idle.aut".into(), text)]);
+        let workspace = Workspace::write("without_outputs", &system, &sources);
+        workspace.cargo(&["clippy", "--quiet", "-p", "adapters", "--", "-D", "warnings"]);
+    }
 }
 
 /// Outputs of the line, in front of those of its machines.
@@ -224,6 +228,54 @@ fn fixtures_run_as_on_the_executor() {
         let wanted: Vec<&str> = wanted.split(' ').collect();
         let wanted = [&wanted[..1], &wanted[2..3], &wanted[SYSTEM..SYSTEM + outputs]].concat().join(" ");
         assert_eq!(bits(&words), wanted, "scan {scan}");
+    }
+    refuses_what_are_no_inputs(&workspace, &recording.inputs);
+}
+
+/// The host ends with an error, after a scan without permission, and takes nothing of the line.
+fn refuses_what_are_no_inputs(workspace: &Workspace, inputs: &str) {
+    let started: Vec<String> = (inputs.lines().take(2).zip(["1 0 0", "1 1 0"]))
+        .map(|(line, system)| format!("{system}{}\n", &line[system.len()..]))
+        .collect();
+    let next = started[1].trim_end();
+    let images = &next["1 1 0".len()..];
+    let first = images.split_whitespace().next().expect("the size of an image");
+    let cut = &next[..next.rfind(' ').expect("words")];
+    let host = |line: &str| {
+        let mut child = Command::new(workspace.program("examples/host"))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("a program that can be started");
+        let mut stdin = child.stdin.take().expect("a pipe");
+        writeln!(stdin, "{}{line}", started.concat()).expect("a program that reads its input");
+        drop(stdin);
+        let output = child.wait_with_output().expect("a program that ends");
+        let lines = String::from_utf8(output.stdout).expect("text");
+        (output.status.success(), lines.lines().map(String::from).collect::<Vec<String>>())
+    };
+    let (is_fine, lines) = host(next);
+    assert!(is_fine && lines.len() == 4, "{lines:?}");
+    let stopped = format!("0 0 0{images}");
+    let (_, wanted) = host(&stopped);
+    for (wrong, why) in [
+        (String::new(), "nothing"),
+        (format!("nan 0 0{images}"), "a permission that is none"),
+        (format!("2 0 0{images}"), "a permission that is none"),
+        (format!("1 x 0{images}"), "a start that is none"),
+        (cut.into(), "a word is missing"),
+        ("1 0 0".into(), "all images are missing"),
+        (format!("{next} 0"), "a word too many"),
+        (
+            next.replacen(&format!("0 {first} "), "0 18446744073709551615 ", 1),
+            "a size that is not that of the image",
+        ),
+    ] {
+        assert_ne!(wrong, next, "{why}");
+        let (is_fine, lines) = host(&wrong);
+        assert!(!is_fine, "{why}");
+        assert_eq!(lines, wanted[..3], "{why}");
     }
 }
 
@@ -269,53 +321,106 @@ fn the_line_runs_as_on_the_executor() {
     links_without_a_panic(&workspace);
     workspace.put("controllers/tests/restore.rs", RESTORE);
     workspace.cargo(&["test", "--quiet", "-p", "controllers", "--test", "restore"]);
+    workspace.put("adapters/tests/images.rs", IMAGES);
+    workspace.cargo(&["test", "--quiet", "-p", "adapters", "--test", "images"]);
 }
 
 /// Words that are not those of the line, or of no scan of it: it begins with initial values and a fault, or with words
 /// that it would write itself.
-const RESTORE: &str = r#"use controllers::line;
+const RESTORE: &str = r#"use controllers::cells::{Cells, Wiring};
+use controllers::line;
+use controllers::retained::{UNCHECKED, check, check_word};
+use controllers::robot::Robot;
 use controllers::system::{NOT_RETAINED, System, SystemInputs};
 
-/// The words after some scans with `start`, and whether there is the fault, of a line that began with words.
+/// A line that was restored from words, if there are any.
+struct Line<'a> {
+    system: System,
+    robots: Vec<Robot<'static>>,
+    cells: Cells<'a>,
+    scans: usize,
+}
+
+impl<'a> Line<'a> {
+    fn new(memory: &'a mut line::Memory) -> Self {
+        Self { system: System::new(), robots: line::robots().into(), cells: memory.cells(), scans: 0 }
+    }
+
+    fn restore(&mut self, wiring: &Wiring, words: &[f64]) {
+        let mut rest = words.iter().copied();
+        self.system.restore(wiring, &mut self.robots, &mut self.cells, &mut || rest.next());
+        self.scans = 0;
+    }
+
+    /// Some scans with `start`: whether there was the fault.
+    fn run(&mut self, scans: usize) -> bool {
+        let mut is_lost = false;
+        for _ in 0..scans {
+            let inputs = SystemInputs { run_permit: true, start: self.scans > 0, reset: false };
+            let answer = self.system.scan(inputs, &line::WIRING, &mut self.robots, &mut self.cells);
+            self.scans += 1;
+            is_lost |= answer.fault_code == NOT_RETAINED;
+            assert!(!is_lost || !answer.running);
+        }
+        is_lost
+    }
+
+    fn words(&self) -> Vec<f64> {
+        let mut found = Vec::new();
+        self.system.retain(&line::WIRING, &self.robots, &self.cells, &mut |word| found.push(word));
+        found
+    }
+
+    fn shown(&self) -> String {
+        format!("{:?} {:?} {:?}", self.system, self.robots, self.cells)
+    }
+}
+
+/// The words after some scans with `start`, and whether there was the fault, of a line that began with words.
 fn after(words: Option<&[f64]>, scans: usize) -> (Vec<f64>, bool) {
     let mut memory = line::Memory::NEW;
-    let mut cells = memory.cells();
-    let mut robots = line::robots();
-    let mut system = System::new();
+    let mut line = Line::new(&mut memory);
     if let Some(words) = words {
-        let mut rest = words.iter().copied();
-        system.restore(&mut robots, &mut cells, &mut || rest.next());
+        line.restore(&line::WIRING, words);
     }
-    let mut is_lost = false;
-    for number in 0..scans {
-        let inputs = SystemInputs { run_permit: true, start: number > 0, reset: false };
-        let answer = system.scan(inputs, &line::WIRING, &mut robots, &mut cells);
-        is_lost |= answer.fault_code == NOT_RETAINED;
-        assert!(!is_lost || !answer.running);
-    }
-    let mut found = Vec::new();
-    system.retain(&robots, &cells, &mut |word| found.push(word));
-    (found, is_lost)
+    let is_lost = line.run(scans);
+    (line.words(), is_lost)
+}
+
+/// Words with the check that belongs to them.
+fn checked(mut words: Vec<f64>) -> Vec<f64> {
+    words.pop();
+    let sum = words.iter().fold(UNCHECKED, |sum, word| check(sum, *word));
+    words.push(check_word(sum));
+    words
+}
+
+/// The words of a line that begins with the fault.
+fn lost() -> Vec<f64> {
+    let mut words = after(None, 1).0;
+    words[1] = f64::from(NOT_RETAINED);
+    checked(words)
+}
+
+fn refused(words: &[f64], why: &str) {
+    assert_eq!(after(Some(words), 1), (lost(), true), "{why}");
+    after(Some(words), 50);
+}
+
+/// Its own words, in which a machine that begins anew is in its beginning.
+fn own() -> Vec<f64> {
+    let (kept, is_lost) = after(None, 50);
+    assert!(!is_lost && kept.len() > 200, "{}", kept.len());
+    let own = after(Some(&kept), 1).0;
+    assert!(own != kept && own.len() == kept.len());
+    own
 }
 
 #[test]
 fn words_of_another_line_are_not_taken() {
-    let (kept, is_lost) = after(None, 50);
-    assert!(!is_lost && kept.len() > 200, "{}", kept.len());
-    // From some states a machine begins anew.
-    let own = after(Some(&kept), 1).0;
-    assert!(own != kept && own.len() == kept.len());
-    let mut fresh = after(None, 1).0;
-    // The fault itself is retained.
-    fresh[2] = f64::from(NOT_RETAINED);
+    let own = own();
     assert_eq!(after(Some(&own), 1), (own.clone(), false), "its own words");
-    let refused = |words: &[f64], why: &str| {
-        let (found, is_lost) = after(Some(words), 1);
-        assert!(is_lost, "{why}");
-        assert_eq!((&found[..3], &found[4..]), (&fresh[..3], &fresh[4..]), "{why}");
-        after(Some(words), 50);
-    };
-    for length in 0..own.len() {
+    for length in 1..own.len() {
         refused(&own[..length], &format!("{length} words"));
     }
     refused(&[&own[..], &[0.0]].concat(), "a word too many");
@@ -323,12 +428,18 @@ fn words_of_another_line_are_not_taken() {
     for at in 0..own.len() {
         for wrong in [f64::NAN, f64::INFINITY, 0.5, -1.0, 99.0, 70_000.0, 3e9, 1e300] {
             let mut words = own.clone();
-            words[at] = wrong;
-            if !wrong.is_finite() {
-                refused(&words, &format!("word {at} is {wrong}"));
+            if words[at] == wrong {
                 continue;
             }
+            words[at] = wrong;
+            refused(&words, &format!("word {at} is {wrong}"));
+            if at + 1 == own.len() {
+                continue;
+            }
+            // As if it had been retained so.
+            let words = checked(words);
             let (found, is_lost) = after(Some(&words), 1);
+            assert!(is_lost || wrong.is_finite(), "word {at} is {wrong}");
             if !is_lost {
                 taken += 1;
                 assert_eq!(found, after(Some(&found), 1).0, "word {at} is {wrong}");
@@ -339,6 +450,116 @@ fn words_of_another_line_are_not_taken() {
     }
     // Of a value that fits nobody knows whether it was that.
     assert!(taken > 0);
+}
+
+#[test]
+fn words_of_two_scans_are_not_taken() {
+    let (earlier, later) = (after(None, 1).0, after(None, 50).0);
+    assert!(earlier.iter().zip(&later).filter(|(a, b)| a != b).count() > 5);
+    for at in 0..=earlier.len() {
+        let torn = [&earlier[..at], &later[at..]].concat();
+        match torn == earlier || torn == later {
+            true => assert!(!after(Some(&torn), 1).1, "torn at {at}"),
+            false => refused(&torn, &format!("torn at {at}")),
+        }
+    }
+}
+
+#[test]
+fn words_of_another_layout_are_not_taken() {
+    let own = own();
+    let other = Wiring { retained_of: line::WIRING.retained_of + 1, ..line::WIRING };
+    let mut memory = line::Memory::NEW;
+    let mut line = Line::new(&mut memory);
+    line.restore(&other, &own);
+    assert!(line.run(1));
+}
+
+#[test]
+fn where_nothing_was_retained_all_is_as_at_first() {
+    let fresh = (after(None, 1).0, false);
+    let blank = vec![0.0; fresh.0.len()];
+    assert_eq!(after(Some(&[]), 1), fresh);
+    assert_eq!(after(Some(&blank), 1), fresh);
+    refused(&blank[1..], "too few zeros");
+    refused(&[&blank[..], &[0.0]].concat(), "too many zeros");
+    for at in 1..blank.len() {
+        let mut words = blank.clone();
+        words[at] = 1.0;
+        refused(&words, &format!("one at {at}"));
+    }
+}
+
+#[test]
+fn whatever_happened_before_does_not_count() {
+    for words in [own(), Vec::new(), vec![1.0]] {
+        let (mut fresh, mut used) = (line::Memory::NEW, line::Memory::NEW);
+        let (mut fresh, mut used) = (Line::new(&mut fresh), Line::new(&mut used));
+        let first = used.shown();
+        used.run(77);
+        assert_ne!(used.shown(), first);
+        fresh.restore(&line::WIRING, &words);
+        used.restore(&line::WIRING, &words);
+        assert_eq!(used.shown(), fresh.shown());
+    }
+}
+"#;
+
+/// A scan with an image of another size is none.
+const IMAGES: &str = r#"#![allow(unsafe_code)]
+
+use adapters::c_interface::{Image, Inputs, Outputs, autogen_close, autogen_open, autogen_scan, autogen_trace};
+
+#[test]
+fn images_of_another_size_are_refused() {
+    let text = include_str!("../../parameters.txt");
+    let mut message = [0; 200];
+    let mut length = 0;
+    let session =
+        unsafe { autogen_open(text.as_ptr(), text.len(), message.as_mut_ptr(), message.len(), &mut length) };
+    assert!(!session.is_null());
+    let layout = adapters::layout::Layout::compiled();
+    let mut image = Vec::new();
+    let sizes: Vec<[usize; 2]> = (layout.robots.iter())
+        .map(|robot| {
+            adapters::layout::publish(robot, false, &mut image);
+            [adapters::layout::input_words(robot), image.len()]
+        })
+        .collect();
+    let trace = || {
+        let mut words = vec![0.0; 100_000];
+        let count = unsafe { autogen_trace(session, words.as_mut_ptr(), words.len()) };
+        words.truncate(count);
+        words
+    };
+    let scan = |sizes: &[[usize; 2]]| {
+        let mut words: Vec<[Vec<f64>; 2]> = sizes.iter().map(|size| size.map(|size| vec![0.0; size])).collect();
+        let mut images = |which: usize| -> Vec<Image> {
+            words.iter_mut().map(|of| Image { words: of[which].as_mut_ptr(), count: of[which].len() }).collect()
+        };
+        let (inputs, outputs) = (images(0), images(1));
+        let mut answer = Outputs { fault_code: -5, ..Outputs::default() };
+        let system = Inputs { run_permit: 1, start: 0, reset: 0 };
+        let wrong = unsafe {
+            autogen_scan(session, system, inputs.as_ptr(), outputs.as_ptr(), sizes.len(), &mut answer)
+        };
+        (wrong, answer.fault_code)
+    };
+    assert_eq!(scan(&sizes), (0, 0));
+    let before = trace();
+    for (robot, which) in (0..sizes.len()).flat_map(|robot| [(robot, 0), (robot, 1)]) {
+        for size in [0, sizes[robot][which] + 1] {
+            let mut wrong = sizes.clone();
+            wrong[robot][which] = size;
+            let expected = if size == sizes[robot][which] { (0, 0) } else { (robot + 1, -5) };
+            assert_eq!(scan(&wrong), expected, "robot {robot}, image {which} of {size} words");
+        }
+    }
+    assert_eq!(scan(&sizes[1..]).0, 1);
+    assert_eq!(scan(&sizes[..sizes.len() - 1]), (sizes.len(), -5));
+    assert_eq!(scan(&[&sizes[..], &[[0, 0]]].concat()), (sizes.len() + 1, -5));
+    assert_eq!(trace(), before);
+    unsafe { autogen_close(session) };
 }
 "#;
 

@@ -116,18 +116,6 @@ fn what_is_retained_was_kept_everywhere() {
     }
 }
 
-/// Where items are is remembered by places and numbers of slots: another layout has others.
-#[test]
-fn what_is_retained_is_of_this_layout() {
-    let number = |texts: Texts| {
-        texts.compile().project.expect("a layout that can be built").system.shape_of_retained()
-    };
-    let own = number(ariac("default"));
-    assert_eq!(own, number(ariac("default")));
-    assert_ne!(own, number(ariac("default").set("agv.capacity=4")));
-    assert_ne!(own, number(ariac("default").set("kitting.speed=0.5")));
-}
-
 /// Most of its vehicles get to none of most stations: a loop gives that to all, and the others get theirs behind it.
 #[test]
 fn a_long_table_has_all_its_values_after_the_first_scan() {

@@ -92,6 +92,7 @@ pub fn library_of(files: Files) -> Files {
 
 /// The crates of the controllers and of their adapters.
 fn crates(system: &System, sources: &Sources, files: &mut dyn Sink) {
+    let retained_of = system.model.retains().then(|| system.shape_of_retained());
     let system = &without_idle_updates(system);
     let names = names::names(system);
     let shared = Shared { system, sources, names: &names };
@@ -113,7 +114,7 @@ fn crates(system: &System, sources: &Sources, files: &mut dyn Sink) {
         let context = Context::new(shared, AutomatonId(id));
         put(format!("controllers/src/{}.rs", context.own().module), automaton::module(&context));
     }
-    put("controllers/src/line.rs".into(), line::line(shared));
+    put("controllers/src/line.rs".into(), line::line(shared, retained_of));
     put("controllers/src/robots.rs".into(), robots::modules(shared));
     for id in used_types(system) {
         let module = &names.automata[id.0].module;

@@ -1,6 +1,6 @@
 //! What outlasts a loss of power.
 
-use super::{Automaton, InterfaceId, Model, Scalar, System, Type, Value};
+use super::{Automaton, FaultId, InterfaceId, Model, Scalar, System, Type, Value};
 use std::collections::BTreeSet;
 
 /// What of the instances of a type outlasts a loss of power, and stays when an instance begins anew.
@@ -29,13 +29,14 @@ impl Automaton {
 }
 
 impl System {
-    /// As of its model, and of the instances in layout order: their names, their parameters, and the members of their
-    /// roles. What is remembered of the places of one layout is wrong in another.
+    /// As of its model, and of the instances in layout order: their names, their types, their parameters, and the members
+    /// of their roles. What is remembered of the places of one layout is wrong in another.
     pub fn shape_of_retained(&self) -> u32 {
         let mut shape = Shape::BEGIN;
         shape.number(self.model.shape_of_retained() as i32);
         for instance in &self.instances {
             shape.text(&instance.name);
+            shape.text(&self.model.automaton(instance.automaton).name);
             for values in &instance.parameters {
                 shape.number(values.len() as i32);
                 values.iter().for_each(|value| shape.constant(*value));
@@ -55,8 +56,8 @@ impl Model {
         self.automata.iter().any(|automaton| !automaton.retained.is_empty())
     }
 
-    /// A number that changes when what is retained does: names of states, names and types of values. The FNV-1a hash,
-    /// 31 bits of it, never 0.
+    /// A number that changes when what is retained does: names of states, names and types of values, and the causes of
+    /// faults with their codes, because the fault is retained too. The FNV-1a hash, 31 bits of it, never 0.
     pub fn shape_of_retained(&self) -> u32 {
         let mut shape = Shape::BEGIN;
         for automaton in self.automata.iter().filter(|automaton| !automaton.retained.is_empty()) {
@@ -78,6 +79,14 @@ impl Model {
                 let ty = Type { scalar: port.ty.into(), extent: port.extent.into() };
                 shape.value(&port.name, ty, self);
             }
+        }
+        for (number, site) in self.faults.iter().enumerate() {
+            let automaton = self.automaton(site.automaton);
+            shape.text(&automaton.name);
+            automaton.situation(FaultId(number)).iter().for_each(|part| shape.text(part));
+            shape.text(&site.text);
+            shape.number(site.kind as i32);
+            shape.number(site.severity as i32);
         }
         shape.end()
     }

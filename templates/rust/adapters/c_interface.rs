@@ -4,7 +4,7 @@
 //! closes it. Sessions share nothing, and each is used by one thread at a time.
 #![allow(unsafe_code)] // A C interface has only pointers.
 
-use crate::layout::{Layout, alarm, latch, publish};
+use crate::layout::{Layout, alarm, input_words, latch, publish};
 use crate::read::Reader;
 use controllers::system::{System, SystemInputs};
 
@@ -14,8 +14,22 @@ pub const VERSION: u32 = 4;
 pub struct Session {
     layout: Layout,
     system: System,
+    /// Words of the inputs and of the outputs of each robot.
+    sizes: Vec<[usize; 2]>,
     image: Vec<f64>,
     trace: Vec<f64>,
+}
+
+impl Session {
+    fn new(layout: Layout) -> Self {
+        let mut image = Vec::new();
+        let size = |robot| {
+            publish(robot, false, &mut image);
+            [input_words(robot), image.len()]
+        };
+        let sizes = layout.robots.iter().map(size).collect();
+        Self { layout, system: System::new(), sizes, image, trace: Vec::new() }
+    }
 }
 
 /// Words of a process image; they belong to the caller.
@@ -25,7 +39,7 @@ pub struct Image {
     pub count: usize,
 }
 
-/// Inputs of the system as a whole: 1 is true.
+/// Inputs of the system as a whole: 1 is true, and every other number is false.
 #[repr(C)]
 pub struct Inputs {
     pub run_permit: u8,
@@ -67,10 +81,7 @@ pub unsafe extern "C" fn autogen_open(
     let bytes = unsafe { std::slice::from_raw_parts(text, text_length) };
     let read = || Layout::read(&mut Reader::new(str::from_utf8(bytes).map_err(|e| e.to_string())?));
     match read() {
-        Ok(layout) => {
-            let session = Session { layout, system: System::new(), image: Vec::new(), trace: Vec::new() };
-            Box::into_raw(Box::new(session))
-        }
+        Ok(layout) => Box::into_raw(Box::new(Session::new(layout))),
         Err(reason) => {
             let count = reason.len().min(capacity);
             // SAFETY: no more than `capacity` bytes are written, and the two do not overlap.
@@ -108,7 +119,8 @@ pub unsafe extern "C" fn autogen_robots(session: *const Session) -> usize {
 }
 
 /// One scan: latches `inputs`, steps all robots, publishes into `outputs`. Both have an image for each robot,
-/// in layout order. 0, or the number of the first robot from 1 whose output image has another size.
+/// in layout order. 0, or the number of the first robot from 1 that has no images, or one of another size: then nothing
+/// was done, and `answer` is as it was.
 ///
 /// # Safety
 /// `session` is open; `inputs` and `outputs` point to `robots` images, `answer` to the outputs of the system,
@@ -131,14 +143,19 @@ pub unsafe extern "C" fn autogen_scan(
             &mut *answer,
         )
     };
+    let fits = |(size, images): (&[usize; 2], (&Image, &Image))| *size == [images.0.count, images.1.count];
+    let count = session.sizes.iter().zip(inputs.iter().zip(outputs)).take_while(|robot| fits(*robot)).count();
+    if count < session.sizes.len().max(robots) {
+        return count + 1;
+    }
     for (robot, image) in session.layout.robots.iter_mut().zip(inputs) {
         // SAFETY: an image is `count` words.
         latch(robot, unsafe { std::slice::from_raw_parts(image.words, image.count) });
     }
     let system = SystemInputs {
-        run_permit: system.run_permit != 0,
-        start: system.start != 0,
-        reset: system.reset != 0,
+        run_permit: system.run_permit == 1,
+        start: system.start == 1,
+        reset: system.reset == 1,
     };
     let found = session.layout.scan(&mut session.system, system);
     let (alarm, alarm_code, alarm_robot) = alarm(&found);
@@ -151,12 +168,9 @@ pub unsafe extern "C" fn autogen_scan(
         alarm_code,
         alarm_robot,
     };
-    for (number, (robot, image)) in session.layout.robots.iter().zip(outputs).enumerate() {
+    for (robot, image) in session.layout.robots.iter().zip(outputs) {
         publish(robot, found.running, &mut session.image);
-        if session.image.len() != image.count {
-            return number + 1;
-        }
-        // SAFETY: an image is `count` words, and is not the session's own.
+        // SAFETY: an image is `count` words, as many as are published, and is not the session's own.
         unsafe { image.words.copy_from_nonoverlapping(session.image.as_ptr(), image.count) };
     }
     0

@@ -3,16 +3,27 @@
 use controllers::types::{Array, Point};
 
 /// The numbers of an image, from the front; missing numbers are 0.
-pub struct Image<'a>(std::slice::Iter<'a, f64>);
+pub struct Image<'a> {
+    rest: std::slice::Iter<'a, f64>,
+    taken: usize,
+}
 
 impl<'a> Image<'a> {
     pub fn new(image: &'a [f64]) -> Self {
-        Self(image.iter())
+        Self { rest: image.iter(), taken: 0 }
     }
 
     fn word(&mut self) -> f64 {
-        self.0.next().copied().unwrap_or(0.0)
+        self.taken += 1;
+        self.rest.next().copied().unwrap_or(0.0)
     }
+}
+
+/// How many numbers of an image such a value is latched from.
+pub fn words_of<T: Latch>() -> usize {
+    let image = &mut Image::new(&[]);
+    T::latch(image);
+    image.taken
 }
 
 /// A value that is latched from an image.

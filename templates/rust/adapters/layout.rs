@@ -109,6 +109,15 @@ pub fn latch(robot: &mut Robot, image: &[f64]) {
     }
 }
 
+/// How many numbers the image of its inputs has.
+pub fn input_words(robot: &Robot) -> usize {
+    match robot {
+        {%- for robot in robots %}
+        Robot::{{ robot.ty }}(_) => words_of::<{{ robot.module }}::Inputs>(),
+        {%- endfor %}
+    }
+}
+
 /// The process image of a robot's outputs.
 pub fn publish(robot: &Robot, {% if !has_outputs %}_{% endif %}running: bool, image: &mut Vec<f64>) {
     image.clear();
@@ -162,9 +171,13 @@ impl Layout {
     /// Any layout of the same types and kinds, from text.
     pub fn read(reader: &mut Reader) -> Result<Self, String> {
         reader.expect("parameters")?;
-        reader.expect("1")?;
+        reader.expect("2")?;
         reader.expect("scan_ms")?;
         let scan_ms = reader.int()?;
+        {%- if retains %}
+        reader.expect("retained_of")?;
+        let retained_of = reader.int()?;
+        {%- endif %}
         {%- for interface in interfaces %}
         reader.expect("{{ interface.keyword }}")?;
         {%- if interface.parameters.is_empty() && interface.has_cells %}
@@ -189,6 +202,9 @@ impl Layout {
         {%- endif %}
         let wiring = Wiring {
             scan_ms,
+            {%- if retains %}
+            retained_of,
+            {%- endif %}
             {%- for interface in interfaces %}
             {%- if !interface.parameters.is_empty() %}
             {{ interface.field }}: Rows::new(reader.kept.keep({{ interface.field }}), {{ interface.parameters_type }}::NONE),
@@ -213,15 +229,14 @@ impl Layout {
     pub fn power_up(&mut self, system: &mut System) {
         {%- if retains %}
         let mut words = Vec::new();
-        system.retain(&self.robots, {% if has_cells %}&self.cells, {% endif %}&mut |word| words.push(word));
-        {%- endif %}
+        system.retain(&self.wiring, &self.robots, {% if has_cells %}&self.cells, {% endif %}&mut |word| words.push(word));
+        let mut words = words.into_iter();
+        system.restore(&self.wiring, &mut self.robots, {% if has_cells %}&mut self.cells, {% endif %}&mut || words.next());
+        {%- else %}
         *system = System::new();
         for robot in &mut self.robots {
             robot.forget({% if has_cells %}&mut self.cells{% endif %});
         }
-        {%- if retains %}
-        let mut words = words.into_iter();
-        system.restore(&mut self.robots, {% if has_cells %}&mut self.cells, {% endif %}&mut || words.next());
         {%- endif %}
     }
 

@@ -72,6 +72,10 @@ pub struct Cells<'a> {
 pub struct Wiring{% if has_wiring %}<'a>{% endif %} {
     /// Period of a scan.
     pub scan_ms: i32,
+    {%- if retains %}
+    /// Identifies the program and the layout of retained values.
+    pub retained_of: u32,
+    {%- endif %}
     {%- for interface in interfaces %}
     {%- if !interface.parameters.is_empty() %}
     pub {{ interface.field }}: Rows<'a, {{ interface.parameters_type }}>,

@@ -4,6 +4,8 @@
 //! is in the module of its name; [`robots`] and [`line`] have the values that the layout fixes.
 //! Nothing allocates, nothing is unsafe, nothing panics.
 //!
+//! The crate has no clock, no bus and no storage: `docs/rust.md` of autogen says what the program that calls it has to do.
+//!
 //! **This is not a safety function.** It implements no emergency stop, no guards and no safe speeds.
 #![no_std]
 

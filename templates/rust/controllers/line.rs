@@ -22,6 +22,9 @@ const {{ interface.constant }}: [{{ interface.parameters_type }}; {{ interface.c
 
 pub const WIRING: Wiring = Wiring {
     scan_ms: {{ scan_ms }},
+    {%- if let Some(number) = retained_of %}
+    retained_of: {{ number }},
+    {%- endif %}
     {%- for interface in interfaces %}
     {%- if interface.has_parameters %}
     {{ interface.field }}: Rows::new(&{{ interface.constant }}, {{ interface.parameters_type }}::NONE),

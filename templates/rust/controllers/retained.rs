@@ -96,7 +96,16 @@ impl Retained for {{ item }} {
 }
 {%- endfor %}
 
-/// A number for a name: its FNV-1a hash.
-pub fn shape_of(name: &str) -> u32 {
-    name.bytes().fold(0x811c_9dc5, |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
+/// The [`check`] of no words.
+pub const UNCHECKED: u64 = 0xcbf2_9ce4_8422_2325;
+
+/// The check of one word more: their FNV-1a hash. That of words of two scans, put together, is another one.
+pub fn check(before: u64, word: f64) -> u64 {
+    let bytes = word.to_bits().to_le_bytes();
+    bytes.into_iter().fold(before, |check, byte| (check ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+/// It as a word, which holds 53 bits of it.
+pub fn check_word(check: u64) -> f64 {
+    (check >> 11) as f64
 }

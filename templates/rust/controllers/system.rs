@@ -5,7 +5,7 @@
 
 {% if alarms %}use crate::alarm::Alarm;
 {% endif %}use crate::cells::{% if uses_cells || retains && has_cells %}{Cells, Wiring}{% else %}Wiring{% endif %};
-{% if retains %}use crate::retained::{Retained, Words, shape_of};
+{% if retains %}use crate::retained::{Retained, UNCHECKED, Words, check, check_word};
 {% endif %}use crate::robot::Robot;
 use crate::types::Fault;
 
@@ -137,57 +137,110 @@ impl System {
 }
 
 {%- if retains %}
-/// The fault with which the line begins if the retained values are not of this line: it has its initial values.
+/// The fault with which the line begins if the retained values are not of this line, or not of one scan: it has its
+/// initial values.
 pub const NOT_RETAINED: i32 = 32766;
-/// Changes with the words that [`System::retain`] writes.
-const SHAPE: u32 = {{ shape }};
 
 impl System {
-    /// Writes the retained values. Store all words of one scan, or none of it.
-    pub fn retain(&self, robots: &[Robot]{% if has_cells %}, cells: &Cells{% endif %}, put: &mut dyn FnMut(f64)) {
-        put(f64::from(SHAPE));
-        (robots.len() as i32).put(put);
-        self.fault.map_or(0, |(fault, _)| fault.code).put(put);
-        self.fault.map_or(-1, |(_, robot)| robot as i32).put(put);
+    /// Writes the retained values of one scan: the number of the line, the values, and a check of all words before it.
+    pub fn retain(
+        &self,
+        wiring: &Wiring,
+        robots: &[Robot],
+        {%- if has_cells %}
+        cells: &Cells,
+        {%- endif %}
+        put: &mut dyn FnMut(f64),
+    ) {
+        let mut sum = UNCHECKED;
+        let checked: &mut dyn FnMut(f64) = &mut |word| {
+            sum = check(sum, word);
+            put(word);
+        };
+        checked(f64::from(wiring.retained_of));
+        self.fault.map_or(0, |(fault, _)| fault.code).put(checked);
+        self.fault.map_or(-1, |(_, robot)| robot as i32).put(checked);
         for robot in robots {
-            put(f64::from(shape_of(robot.name())));
-            robot.retain({% if has_cells %}cells, {% endif %}put);
+            robot.retain({% if has_cells %}cells, {% endif %}checked);
+        }
+        put(check_word(sum));
+    }
+
+    /// Begins after power-up with the retained values; all others are the initial ones, whatever happened before. Without
+    /// words, or if all that [`System::retain`] writes are 0, nothing was ever retained: all values are the initial ones. If
+    /// the words are not those of this line or not of one scan, the fault [`NOT_RETAINED`] is added: a person clears the
+    /// machines, then resets.
+    pub fn restore(
+        &mut self,
+        wiring: &Wiring,
+        robots: &mut [Robot],
+        {%- if has_cells %}
+        cells: &mut Cells,
+        {%- endif %}
+        words: &mut Words,
+    ) {
+        self.forget(robots{% if has_cells %}, cells{% endif %});
+        let Some(first) = words() else { return };
+        let is_restored = match first == 0.0 {
+            true => self.are_blank(wiring, robots{% if has_cells %}, cells{% endif %}, words),
+            false => self.restored(first, wiring, robots{% if has_cells %}, cells{% endif %}, words).is_some(),
+        };
+        if !is_restored {
+            self.forget(robots{% if has_cells %}, cells{% endif %});
+            self.fault = Some((Fault::new(NOT_RETAINED, "the retained values are not of this line or not of one scan"), usize::MAX));
         }
     }
 
-    /// Begins after power-up with the retained values; all others are the initial ones. If the words are not those of
-    /// this line, it begins with initial values and the fault [`NOT_RETAINED`]: a person clears the machines, then resets.
-    pub fn restore(&mut self, robots: &mut [Robot]{% if has_cells %}, cells: &mut Cells{% endif %}, words: &mut Words) {
+    /// Sets the initial values.
+    fn forget(&mut self, robots: &mut [Robot]{% if has_cells %}, cells: &mut Cells{% endif %}) {
         *self = Self::new();
-        if self.restored(robots{% if has_cells %}, cells{% endif %}, words).is_none() {
-            robots.iter_mut().for_each(|robot| robot.forget({% if has_cells %}cells{% endif %}));
-            self.fault = Some((Fault::new(NOT_RETAINED, "the retained values are not of this line"), usize::MAX));
-        }
+        robots.iter_mut().for_each(|robot| robot.forget({% if has_cells %}cells{% endif %}));
     }
 
+    /// Behind a first word that is 0, all others are 0, and there are as many as are retained.
+    fn are_blank(
+        &self,
+        wiring: &Wiring,
+        robots: &[Robot],
+        {%- if has_cells %}
+        cells: &Cells,
+        {%- endif %}
+        words: &mut Words,
+    ) -> bool {
+        let mut count = 0;
+        self.retain(wiring, robots, {% if has_cells %}cells, {% endif %}&mut |_| count += 1);
+        (1..count).all(|_| words() == Some(0.0)) && words().is_none()
+    }
+
+    /// Nothing, if the words are not those that the line retained in one scan.
     fn restored(
         &mut self,
+        first: f64,
+        wiring: &Wiring,
         robots: &mut [Robot],
         {%- if has_cells %}
         cells: &mut Cells,
         {%- endif %}
         words: &mut Words,
     ) -> Option<()> {
-        if words()? != f64::from(SHAPE) || i32::take(words)? != robots.len() as i32 {
+        if first != f64::from(wiring.retained_of) {
             return None;
         }
-        let (code, robot) = (i32::take(words)?, i32::take(words)?);
+        let mut sum = check(UNCHECKED, first);
+        let checked: &mut Words = &mut || {
+            let word = words()?;
+            sum = check(sum, word);
+            Some(word)
+        };
+        let (code, robot) = (i32::take(checked)?, i32::take(checked)?);
         if code != 0 {
             let number = usize::try_from(robot).unwrap_or(usize::MAX);
             self.fault = Some((Fault::new(code, "the fault was present when power was lost"), number));
         }
         for robot in robots {
-            if words()? != f64::from(shape_of(robot.name())) {
-                return None;
-            }
-            robot.restore({% if has_cells %}cells, {% endif %}words)?;
+            robot.restore({% if has_cells %}cells, {% endif %}checked)?;
         }
-        words().is_none().then_some(())
+        (words()? == check_word(sum) && words().is_none()).then_some(())
     }
 }
 

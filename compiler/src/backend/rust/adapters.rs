@@ -81,7 +81,7 @@ pub fn adapters(shared: Shared) -> String {
         retains: shared.system.model.retains(),
     };
     let mut importable = shared.importable("controllers");
-    importable.push(("crate::image".into(), ["Image", "Latch", "Put"].map(String::from).into()));
+    importable.push(("crate::image".into(), ["Image", "Latch", "Put", "words_of"].map(String::from).into()));
     importable.push(("crate::kept".into(), ["Kept"].map(String::from).into()));
     importable.push(("crate::read".into(), ["Read", "Reader", "kept", "rows"].map(String::from).into()));
     format::module(&render(&view), &importable)

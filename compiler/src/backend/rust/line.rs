@@ -8,6 +8,7 @@ use askama::Template;
 #[template(path = "rust/controllers/line.rs")]
 struct Line<'a> {
     scan_ms: i32,
+    retained_of: Option<u32>,
     interfaces: Vec<InterfaceView>,
     /// Laid out, each with its comma.
     relations: Vec<String>,
@@ -34,7 +35,8 @@ struct RobotView<'a> {
     constant: &'a str,
 }
 
-pub fn line(shared: Shared) -> String {
+/// `retained_of` is the number of what is retained, if anything is.
+pub fn line(shared: Shared, retained_of: Option<u32>) -> String {
     let system = shared.system;
     let interfaces: Vec<InterfaceView> =
         (0..system.model.interfaces.len()).map(|i| interface(shared, i)).collect();
@@ -46,6 +48,7 @@ pub fn line(shared: Shared) -> String {
     let types = used_types(system).into_iter().map(|id| &shared.names.automata[id.0]);
     let view = Line {
         scan_ms: system.scan_ms,
+        retained_of,
         relations: relations.map(|(rows, name)| relation(rows, name)).collect(),
         robots: robots.collect(),
         types: types.map(|a| (a.module.clone(), a.ty.clone())).collect(),

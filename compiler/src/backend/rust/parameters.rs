@@ -1,6 +1,6 @@
 //! A layout as a stream of words, so that a compiled program can run another one.
 //!
-//! The order is that in which the generated `adapters.rs` reads: the period, for each interface what its
+//! The order is that in which the generated `adapters.rs` reads: the period, the number of what is retained, for each interface what its
 //! members show, the relations, and the robots in layout order.
 
 use crate::ir::{InterfaceId, System, Value};
@@ -21,7 +21,10 @@ impl Display for Parameters<'_> {
     fn fmt(&self, to: &mut Formatter) -> fmt::Result {
         let Self(system) = self;
         let model = &system.model;
-        write!(to, "parameters 1\nscan_ms {}\n", system.scan_ms)?;
+        write!(to, "parameters 2\nscan_ms {}\n", system.scan_ms)?;
+        if model.retains() {
+            writeln!(to, "retained_of {}", system.shape_of_retained())?;
+        }
         for (id, interface) in model.interfaces.iter().enumerate() {
             let rows = system.members[id].len();
             writeln!(to, "{} {rows}", interface.name)?;

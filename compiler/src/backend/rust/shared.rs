@@ -67,6 +67,7 @@ struct Cells {
     relations: Vec<RelationView>,
     has_cells: bool,
     has_wiring: bool,
+    retains: bool,
 }
 
 struct InterfaceView {
@@ -107,9 +108,10 @@ pub fn cells(shared: Shared) -> String {
         })
         .collect();
     let has_cells = interfaces.iter().any(|i| !i.cells.is_empty());
+    let retains = shared.system.model.retains();
     let has_wiring = !relations.is_empty() || interfaces.iter().any(|i| !i.parameters.is_empty());
     format::module(
-        &render(&Cells { interfaces, relations, has_cells, has_wiring }),
+        &render(&Cells { interfaces, relations, has_cells, has_wiring, retains }),
         &shared.importable("crate"),
     )
 }
@@ -169,7 +171,6 @@ struct SystemView {
     operate_writes_cells: bool,
     retains: bool,
     has_cells: bool,
-    shape: u32,
 }
 
 #[derive(Template)]
@@ -277,7 +278,6 @@ pub fn system(shared: Shared) -> String {
         operate_writes_cells: operate_writes_cells(shared),
         retains: shared.system.model.retains(),
         has_cells: retained::has_cells(shared),
-        shape: shared.system.model.shape_of_retained(),
     };
     format::print(&render(&view))
 }

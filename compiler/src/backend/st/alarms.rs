@@ -4,7 +4,7 @@ use super::context::Shared;
 use super::screen::{Translate, Use};
 use super::table::row;
 use super::value::{LATE_SCAN, NO_SUCH_STATE, NOT_RETAINED, WRONG_INTERVAL};
-use crate::ir::{Automaton, AutomatonId, FaultId, FaultKind, Severity, Transition, UpdateKind};
+use crate::ir::{AutomatonId, FaultId, FaultKind, Severity};
 use std::collections::BTreeMap;
 
 /// `alarms.csv`: the codes that are published with a fault or an alarm. Robots have the numbers that `fault_robot` gives.
@@ -48,7 +48,7 @@ pub fn table(shared: Shared, translate: &mut Translate) -> String {
         };
         let about = format!("{} ({})", translate(Use::Alarm, &site.text), shared.line(site.place));
         let automaton = shared.system.model.automaton(site.automaton);
-        let [state, transition] = situation(automaton, FaultId(i));
+        let [state, transition] = automaton.situation(FaultId(i));
         text += &row(&[
             &(i + 1).to_string(),
             &automaton.name,
@@ -99,28 +99,4 @@ fn of_the_line(shared: Shared) -> Vec<(i32, &'static str, &'static str)> {
         "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they fall. Remove the items from all places: the controller loses the data of them.",
     ));
     faults
-}
-
-/// State and transition in which an automaton raises a fault. Without a transition: by staying in the state;
-/// without either: in any state.
-fn situation(automaton: &Automaton, fault: FaultId) -> [String; 2] {
-    for state in &automaton.states {
-        if state.within.as_ref().is_some_and(|(_, own)| *own == fault) {
-            return [state.name.clone(), String::new()];
-        }
-        if let Some(transition) = state.transitions.iter().find(|t| raises(t, fault)) {
-            let target = transition.target.map(|target| format!(" -> {}", automaton.states[target.0].name));
-            return [state.name.clone(), transition.text.clone() + &target.unwrap_or_default()];
-        }
-    }
-    Default::default()
-}
-
-fn raises(transition: &Transition, fault: FaultId) -> bool {
-    transition.updates.iter().any(|update| match &update.kind {
-        UpdateKind::Assign { check, .. }
-        | UpdateKind::Fill { check, .. }
-        | UpdateKind::Copy { check, .. } => *check == Some(fault),
-        UpdateKind::Command { arguments, .. } => arguments.iter().any(|a| a.check == Some(fault)),
-    })
 }
