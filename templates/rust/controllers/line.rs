@@ -8,7 +8,7 @@ use crate::{{ module }}::{{ ty }};
 {%- for interface in interfaces %}
 {%- if interface.has_parameters %}
 
-const {{ interface.constant }}: [{{ interface.parameters_type }}; {{ interface.count }}] = [
+static {{ interface.constant }}: [{{ interface.parameters_type }}; {{ interface.count }}] = [
     {%- for row in interface.rows %}
     {{ interface.parameters_type }} {
         {%- for (name, value) in row %}
@@ -29,7 +29,11 @@ pub const WIRING: Wiring = Wiring {
     {%- endfor %}
 {% for relation in relations %}{{ relation }}{% endfor %}};
 
-/// All robots, in the order in which they step.
+/// All robots, in the order in which they step, as at power-up.
+///
+/// They take `size_of::<[Robot; {{ robots.len() }}]>()` bytes: of a long line more than a stack has. A `static` takes
+/// them from the compiler, without a stack, such as with the crate `static_cell`:
+/// `static ROBOTS: ConstStaticCell<[Robot; {{ robots.len() }}]> = ConstStaticCell::new(line::robots());`
 pub const fn robots() -> [Robot<'static>; {{ robots.len() }}] {
     [
         {%- for robot in robots %}
@@ -37,6 +41,9 @@ pub const fn robots() -> [Robot<'static>; {{ robots.len() }}] {
         {%- endfor %}
     ]
 }
+
+/// The same, for a program with a heap, into which it copies them.
+pub static ROBOTS: [Robot<'static>; {{ robots.len() }}] = robots();
 {%- if has_cells %}
 
 /// Storage for the cells of all robots.
@@ -69,4 +76,7 @@ impl Memory {
         }
     }
 }
+
+/// The initial values of the cells, for a program with a heap.
+pub static MEMORY: Memory = Memory::NEW;
 {%- endif %}

@@ -302,9 +302,8 @@ impl Context<'_, '_> {
 fn quotient(x: Interval, y: Interval) -> Interval {
     let divisors = [y.lo, y.hi].into_iter().filter(|divisor| *divisor != 0.0);
     let corners = divisors.flat_map(|divisor| [x.lo / divisor, x.hi / divisor]).map(f64::trunc);
-    corners.fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), |i, v| {
-        Interval::new(i.lo.min(v), i.hi.max(v))
-    })
+    corners
+        .fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), |i, v| Interval::new(i.lo.min(v), i.hi.max(v)))
 }
 
 /// The bounds of a remainder: it has the sign of the dividend and is not greater, and it is less than the divisor.
