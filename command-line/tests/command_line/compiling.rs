@@ -6,10 +6,9 @@ use super::*;
 #[test]
 fn flags_that_make_warnings_errors_are_those_of_the_user_s_own_code() {
     let folder = folder("flags_of_rustc");
-    for (name, flags) in [
-        ("RUSTFLAGS", "-D missing_docs"),
-        ("CARGO_ENCODED_RUSTFLAGS", "-D\u{1f}missing_docs"),
-    ] {
+    for (name, flags) in
+        [("RUSTFLAGS", "-D missing_docs"), ("CARGO_ENCODED_RUSTFLAGS", "-D\u{1f}missing_docs")]
+    {
         let output = Command::new(env!("CARGO_BIN_EXE_autogen"))
             .args(["commission", &example("scenes/lifting_table.json"), "-o", name])
             .current_dir(&folder)

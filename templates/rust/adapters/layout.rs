@@ -147,8 +147,8 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The layout for which the controllers were made. Robots and cells are copied one after the other: of a long line
-    /// all together may be larger than the stack.
+    /// The layout for which the controllers were made. Its robots and cells are copied one by one: all of a long line
+    /// are more than a stack has.
     pub fn compiled() -> Self {
         let {% if has_cells %}mut {% endif %}kept = Kept::default();
         Self {

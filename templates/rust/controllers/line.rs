@@ -31,8 +31,8 @@ pub const WIRING: Wiring = Wiring {
 
 /// All robots, in the order in which they step, as at power-up.
 ///
-/// They take `size_of::<[Robot; {{ robots.len() }}]>()` bytes: of a long line more than a stack has. A `static` takes
-/// them from the compiler, without a stack, such as with the crate `static_cell`:
+/// They are `size_of::<[Robot; {{ robots.len() }}]>()` bytes, which of a long line are more than a stack has. A program without
+/// a heap puts them into a `static`, which needs no stack, for example with the crate `static_cell`:
 /// `static ROBOTS: ConstStaticCell<[Robot; {{ robots.len() }}]> = ConstStaticCell::new(line::robots());`
 pub const fn robots() -> [Robot<'static>; {{ robots.len() }}] {
     [
