@@ -2,6 +2,8 @@
 
 #[path = "command_line/checked_in.rs"]
 mod checked_in;
+#[path = "command_line/compiling.rs"]
+mod compiling;
 #[path = "command_line/conveyors.rs"]
 mod conveyors;
 #[cfg(unix)]

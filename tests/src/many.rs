@@ -41,7 +41,7 @@ fn renamed(path: &str, text: String, number: usize) -> Option<String> {
     Some(match path {
         "controllers/Cargo.toml" => {
             replaced("name = \"controllers\"", format!("name = \"controllers-{number}\""))
-                + "\n[lib]\nname = \"controllers\"\n"
+                .replace("[lib]\n", "[lib]\nname = \"controllers\"\n")
         }
         // Their C interfaces would have the same names in one program.
         "adapters/src/lib.rs" => replaced("pub mod c_interface;\n", String::new()),

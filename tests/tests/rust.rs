@@ -4,7 +4,7 @@
 use autogen::backend::{Files, rust, st};
 use autogen::executor::Executor;
 use autogen::io_map::IoMap;
-use autogen::ir::System;
+use autogen::ir::{Instance, System};
 use autogen::layout::Panel;
 use autogen::source::Sources;
 use autogen_tests::instances::{instantiate, panelled};
@@ -190,16 +190,60 @@ fn each_fixture_runs_as_on_the_executor() {
     }
 }
 
-/// Its adapters have nothing to publish, and there are no cells.
+/// Lines of which each leaves something out, or has it, that others do not: by themselves, with and without panels.
 #[test]
-fn a_line_without_outputs_compiles_without_a_warning() {
-    for retained in ["", "retain all;"] {
-        let text =
-            format!("automaton Idle on bin {{ {retained} initial state Waiting {{ when true {{}} }} }}");
-        let (system, sources) = instantiate(&[("idle.aut".into(), text)]);
-        let workspace = Workspace::write("without_outputs", &system, &sources);
-        workspace.cargo(&["clippy", "--quiet", "-p", "adapters", "--", "-D", "warnings"]);
+fn small_lines_compile_without_a_warning() {
+    let panels = [(Panel::Line, ""), (Panel::Machines, " with panels")];
+    let lines = autogen_tests::fixtures("clean", "aut").into_iter().chain(fixtures());
+    let lines: Vec<(System, Sources)> = lines
+        .flat_map(|line| panels.map(|(panel, _)| panelled(std::slice::from_ref(&line), panel)))
+        .collect();
+    let parts: Vec<_> = lines.iter().map(|(system, sources)| (system, sources)).collect();
+    let workspace = many::workspace("small_lines", &parts);
+    let crates = (0..parts.len()).flat_map(|n| [format!("controllers-{n}"), format!("adapters-{n}")]);
+    let crates: Vec<String> = crates.flat_map(|name| ["-p".into(), name]).collect();
+    let crates: Vec<&str> = crates.iter().map(String::as_str).collect();
+    workspace.cargo(&[&["clippy", "--quiet"], &crates[..], &["--", "-D", "warnings"]].concat());
+}
+
+/// Descriptions are shown as they stand, and none is a program.
+#[test]
+fn comments_of_documentation_have_no_mistakes() {
+    let mut texts = autogen_tests::fixtures("clean", "aut");
+    texts.retain(|(name, _)| name == "descriptions");
+    let (system, sources) = panelled(&[texts, fixtures()].concat(), Panel::Machines);
+    let workspace = Workspace::write("documentation", &system, &sources);
+    for name in ["controllers", "adapters"] {
+        workspace.cargo(&["rustdoc", "--quiet", "-p", name, "--lib", "--", "-D", "warnings"]);
     }
+    // Programs in comments would be compiled even so.
+    let manifest = &rust::files(&system, &sources)["controllers/Cargo.toml"];
+    assert!(manifest.contains("doctest = false"));
+    workspace.put("controllers/Cargo.toml", &manifest.replace("doctest = false", "doctest = true"));
+    workspace.cargo(&["test", "--quiet", "-p", "controllers", "--doc"]);
+}
+
+/// Robots and cells of all machines together are larger than the stack of a program: 19 MB each.
+#[test]
+fn a_long_line_is_deployed_on_an_ordinary_stack() {
+    let text = "automaton Long on bin {
+        retain all;
+        local spots: point[1000];
+        shared shown: point[1000];
+        initial state Waiting { when spots[7].x < 1 -> Waiting { spots[7] := point(1, 2, 3); shown[7] := spots[7]; } }
+    }";
+    let (mut system, sources) = instantiate(&[("long.aut".into(), text.into())]);
+    let machines = 800;
+    let one = system.instances.remove(0);
+    let named = |row: usize| Instance { name: format!("long{row}"), rows: vec![row], ..one.clone() };
+    system.instances = (0..machines).map(named).collect();
+    system.members = vec![(0..machines).collect()];
+    let workspace = Workspace::write("long", &system, &sources);
+    workspace.cargo(&["build", "--quiet", "-p", "commissioning", "--example", "host"]);
+    let host = workspace.debug_program("examples/host");
+    let scan = |start: u8| format!("1 {start} 0{}\n", " 0".repeat(machines));
+    let found = run(&host, &[], &workspace.folder, &[scan(0), scan(1), scan(1)].concat());
+    assert_eq!(found, "0 0\n1 0\n1 0\n");
 }
 
 /// Outputs of the line, in front of those of its machines.
@@ -614,9 +658,10 @@ overflow-checks = false
 fn links_without_a_panic(workspace: &Workspace) {
     workspace.put("bare/Cargo.toml", BARE_MANIFEST);
     workspace.put("bare/src/main.rs", BARE);
-    for level in ["2", "\"s\""] {
-        workspace
-            .put("bare/Cargo.toml", &BARE_MANIFEST.replace("opt-level = 2", &format!("opt-level = {level}")));
+    for (level, lto) in [("1", "false"), ("2", "true"), ("3", "false"), ("\"s\"", "false"), ("\"z\"", "true")]
+    {
+        let manifest = BARE_MANIFEST.replace("opt-level = 2", &format!("opt-level = {level}"));
+        workspace.put("bare/Cargo.toml", &manifest.replace("lto = true", &format!("lto = {lto}")));
         workspace.cargo(&[
             "rustc",
             "--quiet",

@@ -8,6 +8,7 @@ mod adapters;
 mod automaton;
 mod choice;
 mod context;
+mod doc;
 mod expression;
 mod format;
 mod line;

@@ -166,7 +166,7 @@ fn number(text: &str, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Token {
             Ok(value) if value <= i64::from(i32::MAX) => return Token::Int(value),
             _ => diagnostics.push(
                 Diagnostic::new("E0203", span, format!("`{text}` is too large for a whole number"))
-                    .help("whole numbers go to 2147483647; write a real with a decimal point"),
+                    .help("whole numbers go from -2147483647 to 2147483647; a real has a decimal point"),
             ),
         }
         return Token::Int(0);

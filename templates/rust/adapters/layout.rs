@@ -1,8 +1,9 @@
 //! Between process images or texts and the controllers.
 
+use controllers::line;
 use controllers::system::{System, SystemInputs, SystemOutputs};
 {%- for robot in robots %}
-use controllers::{{ robot.module }}::{self, {{ robot.ty }}};
+use controllers::{{ robot.module }}::{{ robot.ty }};
 {%- endfor %}
 
 {%- for item in enums %}
@@ -52,7 +53,7 @@ impl Read for {{ interface.parameters_type }} {
 {%- endfor %}
 {%- for robot in robots %}
 
-impl Latch for {{ robot.module }}::Inputs {
+impl Latch for controllers::{{ robot.module }}::Inputs {
     fn latch({% if robot.inputs.is_empty() %}_{% else %}image{% endif %}: &mut Image) -> Self {
         Self {
             {%- for name in robot.inputs %}
@@ -63,12 +64,12 @@ impl Latch for {{ robot.module }}::Inputs {
 }
 {%- if let Some(outputs) = robot.outputs %}
 
-fn outputs_of_{{ robot.module }}(outputs: {{ robot.module }}::Outputs) -> impl Put {
+fn outputs_of_{{ robot.module }}(outputs: controllers::{{ robot.module }}::Outputs) -> impl Put {
     {{ outputs }}
 }
 {%- endif %}
 
-impl Read for {{ robot.module }}::Parameters<'static> {
+impl Read for controllers::{{ robot.module }}::Parameters<'static> {
     fn read(reader: &mut Reader) -> Result<Self, String> {
         Ok(Self {
             name: Read::read(reader)?,
@@ -155,14 +156,24 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The layout for which the controllers were made.
+    /// The layout for which the controllers were made. Its robots and cells are copied one by one: all of a long line
+    /// are more than a stack has.
     pub fn compiled() -> Self {
         let {% if has_cells %}mut {% endif %}kept = Kept::default();
         Self {
-            wiring: controllers::line::WIRING,
-            robots: controllers::line::robots().into(),
+            wiring: line::WIRING,
+            robots: line::ROBOTS.to_vec(),
             {%- if has_cells %}
-            cells: kept.keep(controllers::line::Memory::NEW).cells(),
+            cells: Cells {
+                {%- for interface in interfaces %}
+                {%- if interface.has_cells %}
+                {{ interface.field }}: Table::new(
+                    kept.keep(line::MEMORY.{{ interface.field }}.to_vec()),
+                    {{ interface.cells_type }}::NEW,
+                ),
+                {%- endif %}
+                {%- endfor %}
+            },
             {%- endif %}
             kept,
         }
@@ -181,11 +192,11 @@ impl Layout {
         {%- for interface in interfaces %}
         reader.expect("{{ interface.keyword }}")?;
         {%- if interface.parameters.is_empty() && interface.has_cells %}
-        let {{ interface.field }}: usize = reader.int()?;
+        let rows_of_{{ interface.field }}: usize = reader.int()?;
         {%- else if interface.parameters.is_empty() %}
         reader.int::<usize>()?;
         {%- else %}
-        let {{ interface.field }}: Vec<{{ interface.parameters_type }}> = reader.list(Read::read)?;
+        let rows_of_{{ interface.field }}: Vec<{{ interface.parameters_type }}> = reader.list(Read::read)?;
         {%- endif %}
         {%- endfor %}
         {%- if has_cells %}
@@ -193,7 +204,7 @@ impl Layout {
             {%- for interface in interfaces %}
             {%- if interface.has_cells %}
             {{ interface.field }}: Table::new(
-                reader.kept.keep(rows({{ interface.field }}{% if !interface.parameters.is_empty() %}.len(){% endif %}, {{ interface.cells_type }}::NEW)),
+                reader.kept.keep(rows(rows_of_{{ interface.field }}{% if !interface.parameters.is_empty() %}.len(){% endif %}, {{ interface.cells_type }}::NEW)),
                 {{ interface.cells_type }}::NEW,
             ),
             {%- endif %}
@@ -207,7 +218,7 @@ impl Layout {
             {%- endif %}
             {%- for interface in interfaces %}
             {%- if !interface.parameters.is_empty() %}
-            {{ interface.field }}: Rows::new(reader.kept.keep({{ interface.field }}), {{ interface.parameters_type }}::NONE),
+            {{ interface.field }}: Rows::new(reader.kept.keep(rows_of_{{ interface.field }}), {{ interface.parameters_type }}::NONE),
             {%- endif %}
             {%- endfor %}
             {%- for relation in relations %}
@@ -261,7 +272,7 @@ impl Layout {
     }
 
     fn trace_of(&self, robot: &Robot, out: &mut Vec<f64>) {
-        {%- if has_cells %}
+        {%- if traces_cells %}
         let cells = &self.cells;
         {%- endif %}
         match robot {

@@ -8,7 +8,7 @@ use crate::{{ module }}::{{ ty }};
 {%- for interface in interfaces %}
 {%- if interface.has_parameters %}
 
-const {{ interface.constant }}: [{{ interface.parameters_type }}; {{ interface.count }}] = [
+static {{ interface.constant }}: [{{ interface.parameters_type }}; {{ interface.count }}] = [
     {%- for row in interface.rows %}
     {{ interface.parameters_type }} {
         {%- for (name, value) in row %}
@@ -32,7 +32,11 @@ pub const WIRING: Wiring = Wiring {
     {%- endfor %}
 {% for relation in relations %}{{ relation }}{% endfor %}};
 
-/// All robots, in the order in which they step.
+/// All robots, in the order in which they step, as at power-up.
+///
+/// They are `size_of::<[Robot; {{ robots.len() }}]>()` bytes, which of a long line are more than a stack has. A program without
+/// a heap puts them into a `static`, which needs no stack, for example with the crate `static_cell`:
+/// `static ROBOTS: ConstStaticCell<[Robot; {{ robots.len() }}]> = ConstStaticCell::new(line::robots());`
 pub const fn robots() -> [Robot<'static>; {{ robots.len() }}] {
     [
         {%- for robot in robots %}
@@ -40,6 +44,9 @@ pub const fn robots() -> [Robot<'static>; {{ robots.len() }}] {
         {%- endfor %}
     ]
 }
+
+/// The same, for a program with a heap, into which it copies them.
+pub static ROBOTS: [Robot<'static>; {{ robots.len() }}] = robots();
 {%- if has_cells %}
 
 /// Storage for the cells of all robots.
@@ -72,4 +79,7 @@ impl Memory {
         }
     }
 }
+
+/// The initial values of the cells, for a program with a heap.
+pub static MEMORY: Memory = Memory::NEW;
 {%- endif %}

@@ -1,4 +1,4 @@
-//! Types and functions of all controllers. Nothing here allocates, and nothing can panic.
+//! Types and functions of all controllers. Nothing here allocates, and nothing panics.
 
 use core::ops::{Add, Index, IndexMut, Sub};
 
@@ -41,16 +41,10 @@ impl Sub for Point {
     }
 }
 
-/// An array whose indices the compiler has proved. They are nevertheless limited to its bounds,
-/// so that the program has no place at which it could panic.
+/// An array whose indices the compiler has proved. An index outside its bounds would nevertheless find the first
+/// element, so that the program has no place at which it could panic, from `opt-level = 1` on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Array<T, const N: usize>(pub [T; N]);
-
-impl<T, const N: usize> Array<T, N> {
-    fn place(index: i32) -> usize {
-        (index.max(0) as usize).min(N - 1)
-    }
-}
 
 impl<T: Copy, const N: usize> Array<T, N> {
     pub const fn all(value: T) -> Self {
@@ -62,13 +56,14 @@ impl<T, const N: usize> Index<i32> for Array<T, N> {
     type Output = T;
 
     fn index(&self, index: i32) -> &T {
-        &self.0[Self::place(index)]
+        self.0.get(index as usize).unwrap_or(&self.0[0])
     }
 }
 
 impl<T, const N: usize> IndexMut<i32> for Array<T, N> {
     fn index_mut(&mut self, index: i32) -> &mut T {
-        &mut self.0[Self::place(index)]
+        let place = index as usize;
+        if place < N { &mut self.0[place] } else { &mut self.0[0] }
     }
 }
 

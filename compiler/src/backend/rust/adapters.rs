@@ -2,7 +2,7 @@
 
 use super::context::Shared;
 use super::shared::{has_alarms, uses_cells};
-use super::{format, render};
+use super::{format, render, retained};
 use askama::Template;
 use runtime_sim::device::Direction;
 
@@ -15,6 +15,8 @@ struct Adapters {
     robots: Vec<RobotView>,
     has_outputs: bool,
     has_cells: bool,
+    /// Some robot has cells of its own.
+    traces_cells: bool,
     uses_cells: bool,
     has_wiring: bool,
     alarms: bool,
@@ -75,6 +77,7 @@ pub fn adapters(shared: Shared) -> String {
         robots,
         has_cells: interfaces.iter().any(|i| i.has_cells),
         interfaces,
+        traces_cells: retained::has_owned_cells(shared),
         uses_cells: uses_cells(shared),
         has_wiring,
         alarms: has_alarms(shared),

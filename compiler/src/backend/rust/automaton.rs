@@ -1,6 +1,7 @@
 //! The module of one type of automaton.
 
-use super::context::{Context, doc};
+use super::context::Context;
+use super::doc::{doc, documented};
 use super::format;
 use super::modes;
 use super::property;
@@ -92,10 +93,10 @@ pub fn module(context: &Context) -> String {
             "{}: the logic of every `{}`. Made by autogen from {}.",
             names.ty,
             automaton.name,
-            context.line(automaton.place)
+            documented(&context.line(automaton.place))
         ),
-        about: automaton.doc.iter().map(|line| crate::plain::line(line)).collect(),
-        device: format!("`{}`: {}", device.name, device.purpose),
+        about: automaton.doc.iter().map(|line| documented(line)).collect(),
+        device: documented(&format!("`{}`: {}", device.name, device.purpose)),
         ty: names.ty.clone(),
         parameters: parameters(context),
         states: automaton

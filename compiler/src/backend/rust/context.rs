@@ -3,7 +3,6 @@
 use super::names::{AutomatonNames, Names};
 use super::walk::{Access, Uses};
 use crate::ir::{Automaton, AutomatonId, Extent, Scalar, System, Type, Value};
-use crate::plain;
 use crate::source::{Sources, Span};
 
 #[derive(Clone, Copy)]
@@ -112,13 +111,4 @@ impl Shared<'_> {
     pub fn line(&self, place: Span) -> String {
         format!("{}:{}", self.sources.file(place.file).name, self.sources.position(place).0)
     }
-}
-
-/// Lines of documentation.
-pub fn doc(lines: &[String]) -> String {
-    let lines: Vec<String> = lines.iter().map(|line| plain::line(line)).collect();
-    if lines.iter().all(|line| line.trim().is_empty()) {
-        return String::new();
-    }
-    lines.iter().map(|line| format!("/// {}\n", line.trim())).collect()
 }

@@ -1,10 +1,11 @@
 //! Operating modes: what a person does with one robot at its panel.
 
 use super::context::Context;
+use super::expression::{Condition, all as all_of};
 use super::format::comment;
 use super::property;
 use super::walk::{Access, Uses};
-use crate::ir::{Action, Automaton, ByHand, KeptBy, Modes};
+use crate::ir::{Action, Automaton, ByHand, Expr, KeptBy, Modes};
 
 /// What a robot that has modes is given as methods.
 pub struct Methods {
@@ -60,6 +61,23 @@ fn asks_for_single(automaton: &Automaton) -> bool {
     automaton.states.iter().any(|state| state.within.is_some()) || property::waits(automaton)
 }
 
+/// The conditions of actions, and the actions: of a condition that holds nothing but another one, which has no text, both.
+fn joined<'a>(
+    condition: &'a Expr,
+    then: &'a [Action],
+    otherwise: &[Action],
+) -> (Vec<&'a Expr>, &'a [Action]) {
+    match then {
+        [Action::If { about, condition: inner, then, otherwise: others }]
+            if about.is_empty() && otherwise.is_empty() && others.is_empty() =>
+        {
+            let (conditions, then) = joined(inner, then, others);
+            ([vec![condition], conditions].concat(), then)
+        }
+        _ => (vec![condition], then),
+    }
+}
+
 impl Context<'_> {
     fn action(&self, action: &Action) -> String {
         let all = |actions: &[Action]| actions.iter().map(|action| self.action(action)).collect::<String>();
@@ -70,7 +88,10 @@ impl Context<'_> {
             Action::BeginAnew => format!("self.begin_anew({});", self.arguments(&uses(self))),
             Action::If { about, condition, then, otherwise } => {
                 let title = if about.is_empty() { String::new() } else { comment(about) };
-                let condition = self.expr(condition);
+                let (conditions, then) = joined(condition, then, otherwise);
+                let conditions: Vec<Condition> =
+                    conditions.into_iter().filter_map(|condition| self.condition(condition)).collect();
+                let condition = all_of(&conditions).unwrap_or_else(|| "true".into());
                 let tail = if otherwise.is_empty() {
                     String::new()
                 } else {

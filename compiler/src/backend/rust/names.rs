@@ -102,6 +102,9 @@ const METHODS: &[&str] = &[
     "restore",
     "fmt",
     "clone",
+    // Those of the prelude that take everything by value.
+    "into",
+    "try_into",
 ];
 const PARAMETERS: &[&str] = &["name"];
 const VARIABLES: &[&str] = &[
@@ -135,9 +138,9 @@ const VARIABLES: &[&str] = &[
     "within",
     "words",
 ];
-const CELLS: &[&str] =
-    &["cells", "leak", "relation", "robot", "robots", "rows", "scan_ms", "wiring", "words"];
-const CONSTANTS: &[&str] = &["WIRING"];
+/// A field of the wiring. No variable is named as an interface: generated code puts `rows_of_` before it.
+const CELLS: &[&str] = &["scan_ms"];
+const CONSTANTS: &[&str] = &["MEMORY", "ROBOTS", "WIRING"];
 
 pub struct Names {
     pub enums: Vec<EnumNames>,

@@ -38,6 +38,17 @@ pub fn has_cells(shared: Shared) -> bool {
     shared.system.model.interfaces.iter().any(|interface| !interface.cells.is_empty())
 }
 
+/// Whether any type has cells of its own.
+pub fn has_owned_cells(shared: Shared) -> bool {
+    let mut implemented = shared.system.model.automata.iter().flat_map(|automaton| &automaton.implements);
+    implemented.any(|i| !shared.system.model.interface(i.interface).cells.is_empty())
+}
+
+/// Whether any robot of the line retains cells.
+pub fn retains_cells(shared: Shared) -> bool {
+    shared.system.model.automata.iter().any(|automaton| !automaton.retained.cells.is_empty())
+}
+
 fn has_own_cells(context: &Context) -> bool {
     let mut interfaces = context.automaton().implements.iter().map(|i| i.interface);
     interfaces.any(|id| !context.system.model.interface(id).cells.is_empty())

@@ -1,7 +1,8 @@
 //! Modules that all automata share.
 
 use super::automaton::step_uses;
-use super::context::{Context, Shared, doc};
+use super::context::{Context, Shared};
+use super::doc::{doc, documented};
 use super::modes;
 use super::property;
 use super::retained;
@@ -38,7 +39,7 @@ pub fn library(shared: Shared) -> String {
         .chain(shared.names.automata.iter().map(|a| a.module.clone()))
         .collect();
     modules.sort();
-    format::print(&render(&Library { files: crate::plain::line(&files.join(", ")), modules }))
+    format::print(&render(&Library { files: documented(&files.join(", ")), modules }))
 }
 
 #[derive(Template)]
@@ -179,7 +180,7 @@ struct RobotView {
     robots: Vec<Variant>,
     /// With a comma before them.
     operate_parameters: &'static str,
-    step_parameters: String,
+    step_parameters: &'static str,
     limits_inputs: bool,
     properties: bool,
     properties_change: bool,
@@ -188,9 +189,9 @@ struct RobotView {
     modes: bool,
     retains: bool,
     /// With a comma before them.
-    forget_parameters: &'static str,
-    retain_parameters: &'static str,
-    restore_parameters: &'static str,
+    forget_parameters: String,
+    retain_parameters: String,
+    restore_parameters: String,
 }
 
 struct Variant {
@@ -301,22 +302,28 @@ pub fn robot(shared: Shared) -> String {
             properties_arguments: context.arguments(&property::uses(&context)),
         })
         .collect();
+    // A line with cells is given them even where no robot needs them.
+    let cells = |is_used: bool, access: &str| match (retained::has_cells(shared), is_used) {
+        (false, _) => String::new(),
+        (true, true) => format!(", cells: {access}Cells"),
+        (true, false) => format!(", _cells: {access}Cells"),
+    };
+    let step_cells = contexts(shared).any(|context| step_uses(&context).cells != Access::None);
     let view = RobotView {
-        step_parameters: if uses_cells(shared) {
-            "wiring: &Wiring, cells: &mut Cells"
-        } else {
-            "wiring: &Wiring"
-        }
-        .into(),
+        step_parameters: match (uses_cells(shared), step_cells) {
+            (false, _) => "wiring: &Wiring",
+            (true, true) => "wiring: &Wiring, cells: &mut Cells",
+            (true, false) => "wiring: &Wiring, _cells: &mut Cells",
+        },
         limits_inputs: robots.iter().any(|r| r.limits),
         properties: robots.iter().any(|r| r.has_properties),
         properties_change: remembers(shared),
         alarms: has_alarms(shared),
         modes: has_modes(shared),
         retains: shared.system.model.retains(),
-        forget_parameters: if retained::has_cells(shared) { ", cells: &mut Cells" } else { "" },
-        retain_parameters: if retained::has_cells(shared) { ", cells: &Cells" } else { "" },
-        restore_parameters: if retained::has_cells(shared) { ", cells: &mut Cells" } else { "" },
+        forget_parameters: cells(retained::has_owned_cells(shared), "&mut "),
+        retain_parameters: cells(retained::retains_cells(shared), "&"),
+        restore_parameters: cells(retained::retains_cells(shared), "&mut "),
         operate_parameters: if operate_writes_cells(shared) { ", cells: &mut Cells" } else { "" },
         properties_parameters: contexts(shared).next().map(|c| c.parameters(&properties)).unwrap_or_default(),
         robots,

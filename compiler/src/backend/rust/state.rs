@@ -1,6 +1,7 @@
 //! The method of a state: its transitions, tested in order.
 
 use super::context::Context;
+use super::doc::documented;
 use super::format::comment;
 use super::walk::Uses;
 use crate::ir::{Clause, State, Transition, UpdateKind};
@@ -50,7 +51,7 @@ impl Context<'_> {
             if let Some(choice) = test.method {
                 choices += &format!(
                     "/// What the transition at {} chooses.\n{choice}\n",
-                    self.line(transition.place)
+                    documented(&self.line(transition.place))
                 );
             }
             commands |= gives_command(transition);

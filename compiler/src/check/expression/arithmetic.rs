@@ -275,18 +275,72 @@ impl Context<'_, '_> {
             Operator::Add => corners(|a, b| a + b),
             Operator::Subtract => corners(|a, b| a - b),
             Operator::Multiply => corners(|a, b| a * b),
-            Operator::Divide => {
-                let largest = x.lo.abs().max(x.hi.abs());
-                Interval::new(if x.lo < 0.0 || y.lo < 0.0 { -largest } else { 0.0 }, largest)
-            }
+            Operator::Divide => quotient(x, y),
             _ => {
-                // The quotient must fit too: not every machine divides the least number by -1.
-                self.fitting((-x.lo) as i64, 0, span)?;
-                let largest = y.lo.abs().max(y.hi.abs()) - 1.0;
-                Interval::new(if x.lo < 0.0 { -largest } else { 0.0 }, largest)
+                // Not every machine finds the remainder of a quotient that does not fit.
+                if x.holds(f64::from(i32::MIN)) && y.holds(-1.0) {
+                    self.report(
+                        Diagnostic::new(
+                            "E0316",
+                            span,
+                            "the quotient of this remainder is not proved to fit into 32 bits",
+                        )
+                        .label("the left side may be -2147483648, and the right side -1")
+                        .help("declare the variables with narrower bounds"),
+                    );
+                    return None;
+                }
+                remainder(x, y)
             }
         };
         let ty = self.fitting(result.lo as i64, result.hi as i64, span)?;
         Some(binary(operator, ty, a, b))
+    }
+}
+
+/// The bounds of a quotient, which is rounded towards 0. The divisor is not 0.
+fn quotient(x: Interval, y: Interval) -> Interval {
+    let divisors = [y.lo, y.hi].into_iter().filter(|divisor| *divisor != 0.0);
+    let corners = divisors.flat_map(|divisor| [x.lo / divisor, x.hi / divisor]).map(f64::trunc);
+    corners
+        .fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), |i, v| Interval::new(i.lo.min(v), i.hi.max(v)))
+}
+
+/// The bounds of a remainder: it has the sign of the dividend and is not greater, and it is less than the divisor.
+fn remainder(x: Interval, y: Interval) -> Interval {
+    let most = y.lo.abs().max(y.hi.abs()) - 1.0;
+    Interval::new(x.lo.clamp(-most, 0.0), x.hi.clamp(0.0, most))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All whole numbers of an interval.
+    fn of(interval: Interval) -> std::ops::RangeInclusive<i32> {
+        interval.lo as i32..=interval.hi as i32
+    }
+
+    /// Neither too wide nor too narrow a bound: each is met.
+    #[test]
+    fn bounds_of_quotients_are_those_of_all_operands() {
+        let intervals =
+            || (-7..=7).flat_map(|lo| (lo..=7).map(move |hi| Interval::new(lo.into(), hi.into())));
+        for x in intervals() {
+            for y in intervals().filter(|y| !y.holds(0.0)) {
+                let pairs = || of(x).flat_map(|a| of(y).map(move |b| (a, b)));
+                let all: Vec<i32> = pairs().map(|(a, b)| a / b).collect();
+                let found = quotient(x, y);
+                assert_eq!(Some(&(found.lo as i32)), all.iter().min(), "{x:?} / {y:?}");
+                assert_eq!(Some(&(found.hi as i32)), all.iter().max(), "{x:?} / {y:?}");
+                let found = remainder(x, y);
+                assert!(pairs().all(|(a, b)| found.holds((a % b).into())), "{x:?} mod {y:?}: {found:?}");
+            }
+        }
+        let least = f64::from(i32::MIN);
+        let all = Interval::new(least, 0.0);
+        assert_eq!(quotient(all, Interval::new(2.0, 2.0)), Interval::new(-1_073_741_824.0, 0.0));
+        assert_eq!(quotient(all, Interval::new(-1.0, -1.0)), Interval::new(0.0, -least));
+        assert_eq!(remainder(all, Interval::new(7.0, 7.0)), Interval::new(-6.0, 0.0));
     }
 }
