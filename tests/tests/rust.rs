@@ -243,7 +243,7 @@ fn a_long_line_is_deployed_on_an_ordinary_stack() {
     let host = workspace.debug_program("examples/host");
     let scan = |start: u8| format!("1 {start} 0{}\n", " 0".repeat(machines));
     let found = run(&host, &[], &workspace.folder, &[scan(0), scan(1), scan(1)].concat());
-    assert_eq!(found, "0 0\n1 0\n1 0\n");
+    assert_eq!(found, "0 0\n1 0\n1 0\n0 0\n");
 }
 
 /// Outputs of the line, in front of those of its machines.

@@ -114,7 +114,7 @@ pub fn latch(robot: &mut Robot, image: &[f64]) {
 pub fn input_words(robot: &Robot) -> usize {
     match robot {
         {%- for robot in robots %}
-        Robot::{{ robot.ty }}(_) => words_of::<{{ robot.module }}::Inputs>(),
+        Robot::{{ robot.ty }}(_) => words_of::<controllers::{{ robot.module }}::Inputs>(),
         {%- endfor %}
     }
 }

@@ -138,8 +138,8 @@ const VARIABLES: &[&str] = &[
     "within",
     "words",
 ];
-/// A field of the wiring. No variable is named as an interface: generated code puts `rows_of_` before it.
-const CELLS: &[&str] = &["scan_ms"];
+/// Fields of the wiring. No variable is named as an interface: generated code puts `rows_of_` before it.
+const CELLS: &[&str] = &["retained_of", "scan_ms"];
 const CONSTANTS: &[&str] = &["MEMORY", "ROBOTS", "WIRING"];
 
 pub struct Names {

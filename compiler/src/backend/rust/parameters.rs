@@ -1,7 +1,7 @@
 //! A layout as a stream of words, so that a compiled program can run another one.
 //!
-//! The order is that in which the generated `adapters.rs` reads: the period, the number of what is retained, for each interface what its
-//! members show, the relations, and the robots in layout order.
+//! The order is that in which the generated `adapters.rs` reads: the period, the number of what is retained, for each
+//! interface what its members show, the relations, and the robots in layout order.
 
 use crate::ir::{InterfaceId, System, Value};
 use std::fmt::{self, Display, Formatter, Write};
