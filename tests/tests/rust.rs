@@ -223,7 +223,7 @@ fn comments_of_documentation_have_no_mistakes() {
     workspace.cargo(&["test", "--quiet", "-p", "controllers", "--doc"]);
 }
 
-/// Robots and cells of all machines together are larger than the stack of a program: 19 MB each.
+/// Robots and cells of all machines together are larger than the stack of a program: 10 MB each.
 #[test]
 fn a_long_line_is_deployed_on_an_ordinary_stack() {
     let text = "automaton Long on bin {
@@ -233,7 +233,7 @@ fn a_long_line_is_deployed_on_an_ordinary_stack() {
         initial state Waiting { when spots[7].x < 1 -> Waiting { spots[7] := point(1, 2, 3); shown[7] := spots[7]; } }
     }";
     let (mut system, sources) = instantiate(&[("long.aut".into(), text.into())]);
-    let machines = 800;
+    let machines = 450;
     let one = system.instances.remove(0);
     let named = |row: usize| Instance { name: format!("long{row}"), rows: vec![row], ..one.clone() };
     system.instances = (0..machines).map(named).collect();
