@@ -79,6 +79,25 @@ fn a_time_is_drawn_for_each_cycle() {
     }
 }
 
+/// A sweep makes a run once if nothing is drawn in it.
+#[test]
+fn a_line_says_whether_anything_is_drawn() {
+    let rejects = "time: 20 s; rejects: [blank, scrap]; shares:";
+    for (settings, is_drawn) in [
+        ("time: 20 s;".into(), false),
+        ("time: 20 s; shortest: 20 s; longest: 20 s;".into(), false),
+        ("time: 20 s; longest: 21 s;".into(), true),
+        ("distribution: uniform; shortest: 20 s; longest: 21 s;".into(), true),
+        ("distribution: exponential; time: 20 s;".into(), true),
+        (NORMAL.into(), true),
+        (format!("{rejects} [0];"), false),
+        (format!("{rejects} [0.4];"), true),
+        (format!("{rejects} [1];"), false),
+    ] {
+        assert_eq!(cell(&settings, "").project().plant.is_drawn(), is_drawn, "{settings}");
+    }
+}
+
 /// What is drawn for the mill depends on nothing else in the line, so that two lines can be compared.
 #[test]
 fn another_machine_and_rejects_change_no_time() {
