@@ -11,15 +11,21 @@ const FIGURE: &str = "seconds_per_order";
 
 /// A table that names points as the sweep's own CSV does, by some of its columns, and gives seconds per order.
 pub struct Measured {
-    /// By what a point is called, in the order of [`Self::keys`]: its figure, if it has one.
-    rows: BTreeMap<Vec<String>, Option<f64>>,
     name: String,
-    /// Points of it that stand beside no row so far, and their lines.
-    unused: BTreeMap<Vec<String>, usize>,
+    /// By what a point is called, in the order of [`Self::keys`].
+    rows: BTreeMap<Vec<String>, Given>,
     keys: Vec<String>,
     /// Squares of what the ratios of here and there differ from 1, their sum and number.
     squares: f64,
     ratios: u32,
+}
+
+/// A line of the table.
+struct Given {
+    line: usize,
+    figure: Option<f64>,
+    /// It stands beside a row of the sweep.
+    is_used: bool,
 }
 
 /// What stands beside a row.
@@ -66,7 +72,7 @@ impl Measured {
                 return Err(said(format!("the column `{key}` occurs twice")));
             }
         }
-        let (mut rows, mut unused) = (BTreeMap::new(), BTreeMap::new());
+        let mut rows = BTreeMap::new();
         for record in records {
             let number = || sources.position(record[0].span).0;
             let mut point = texts(record);
@@ -75,26 +81,28 @@ impl Measured {
                 return Err(said(format!("line {}: {found} fields, {wanted} columns", number())));
             }
             let written = point.remove(figure);
-            let value =
+            let figure =
                 match written.as_str() {
                     "" => None,
                     text => Some(text.parse::<f64>().ok().filter(|s| s.is_finite() && *s > 0.0).ok_or_else(
                         || said(format!("line {}: `{text}` is not a number of seconds above 0", number())),
                     )?),
                 };
-            unused.insert(point.clone(), number());
-            if rows.insert(point, value).is_some() {
+            let given = Given { line: number(), figure, is_used: false };
+            if rows.insert(point, given).is_some() {
                 return Err(said(format!("line {}: this point occurs twice", number())));
             }
         }
-        Ok(Self { rows, name: name.into(), unused, keys, squares: 0.0, ratios: 0 })
+        Ok(Self { name: name.into(), rows, keys, squares: 0.0, ratios: 0 })
     }
 
     /// What stands beside a point that came to `seconds_per_order`; `cell` gives what it is called in a column.
     pub fn beside(&mut self, seconds_per_order: Option<f64>, cell: impl Fn(&str) -> String) -> Beside {
         let point: Vec<String> = self.keys.iter().map(|key| cell(key)).collect();
-        self.unused.remove(&point);
-        let found = self.rows.get(&point).copied().flatten();
+        let found = self.rows.get_mut(&point).and_then(|given| {
+            given.is_used = true;
+            given.figure
+        });
         let ratio = found.zip(seconds_per_order).map(|(there, here)| here / there);
         if let Some(ratio) = ratio {
             self.squares += (ratio - 1.0) * (ratio - 1.0);
@@ -105,10 +113,11 @@ impl Measured {
 
     /// The first line whose point is none of the sweep so far; none if there is no such line.
     pub(crate) fn unused(&self) -> Option<String> {
-        let (point, line) = self.unused.iter().min_by_key(|(_, line)| **line)?;
+        let unused = || self.rows.iter().filter(|(_, given)| !given.is_used);
+        let (point, Given { line, .. }) = unused().min_by_key(|(_, given)| given.line)?;
         let point: Vec<String> =
             self.keys.iter().zip(point).map(|(key, value)| format!("{key} {value}")).collect();
-        let more = match self.unused.len() {
+        let more = match unused().count() {
             1 => String::new(),
             lines => format!(" (and {} more lines)", lines - 1),
         };

@@ -20,7 +20,7 @@ pub struct Row {
     pub figure: Option<f64>,
     /// Half of the width of the 95 % interval of the figure; `None` of less than two runs.
     pub half_width: Option<f64>,
-    /// In all of several runs the controllers have done the same at the same times.
+    /// Several runs have come to the same, and the controllers did the same at the same times.
     pub are_same: bool,
     /// Mean over the runs in which all orders were made.
     pub cut_orders: Option<f64>,
@@ -60,18 +60,15 @@ struct Tally {
     cut_orders: Sample,
     items_per_hour: Sample,
     differences: Sample,
-    /// Hash of what the controllers did in the first run, and whether another run has another one.
-    first_trace: Option<String>,
+    /// The first run, and whether another one came to something else.
+    first: Option<Outcome>,
     differ: bool,
 }
 
 impl Tally {
     fn take(&mut self, replication: u32, mut outcome: Outcome, asked: Asked) {
         self.runs += 1;
-        if self.runs == 1 {
-            self.first_trace.clone_from(&outcome.trace_hash);
-        }
-        self.differ |= outcome.trace_hash.is_none() || outcome.trace_hash != self.first_trace;
+        self.differ |= outcome != *self.first.get_or_insert_with(|| outcome.clone());
         self.orders_done = self.orders_done.into_iter().chain([outcome.orders_done]).min();
         self.items = self.items.into_iter().chain([outcome.items]).min();
         outcome.items_per_hour(asked).into_iter().for_each(|n| self.items_per_hour.take(n));
@@ -101,7 +98,7 @@ impl Tally {
             finished_runs: self.cut_orders.count,
             figure: self.figure.mean(),
             half_width: self.figure.half_width(),
-            are_same: self.runs > 1 && !self.differ,
+            are_same: self.figure.half_width().is_some() && !self.differ,
             cut_orders: self.cut_orders.mean(),
             items_per_hour: self.items_per_hour.mean(),
             differences: self.differences,
@@ -158,10 +155,8 @@ impl<'a> Rows<'a> {
             .design
             .precision
             .is_some_and(|precision| is_refused || precision.is_reached(&self.tally.figure));
-        if self.design.precision.is_some() && !is_enough && self.tally.runs == self.design.replications {
-            self.imprecise += 1;
-        }
         let is_last = is_enough || self.tally.runs == self.design.replications;
+        self.imprecise += usize::from(is_last && !is_enough && self.design.precision.is_some());
         if is_last
             && let Some(row) =
                 std::mem::take(&mut self.tally).row(self.design.point(run.point), self.design.asked)

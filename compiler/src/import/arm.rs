@@ -46,6 +46,16 @@ pub struct Joint {
     pub friction: Option<f64>,
 }
 
+type Of = fn(&Joint) -> Option<f64>;
+
+/// What a chain has for all its joints or for none, by the names of its settings.
+pub const LISTS: [(&str, Of); 4] = [
+    ("masses", |joint| joint.mass),
+    ("efforts", |joint| joint.effort),
+    ("damping", |joint| joint.damping),
+    ("friction", |joint| joint.friction),
+];
+
 #[derive(Debug)]
 pub struct Body {
     /// Of the link, in the file.

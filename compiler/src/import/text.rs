@@ -1,7 +1,7 @@
 //! The device text of an imported arm.
 
 use super::arm::fit::{Fit, JOINTS, turn};
-use super::arm::{Arm, Body, Form, Joint};
+use super::arm::{Arm, Body, Form, Joint, LISTS};
 use super::{distinct, identifier};
 use crate::plain;
 use runtime_sim::kinematics::fixed::Geometry;
@@ -105,14 +105,7 @@ fn chain(arm: &Arm, rest: Point, out: &mut String) {
         line(format!("joints: [{}];", names(|joint| &joint.name)));
         line(format!("links: [{}];", names(|joint| &joint.link)));
     }
-    type Of = fn(&Joint) -> Option<f64>;
-    let others: [(&str, Of); 4] = [
-        ("masses", |joint| joint.mass),
-        ("efforts", |joint| joint.effort),
-        ("damping", |joint| joint.damping),
-        ("friction", |joint| joint.friction),
-    ];
-    for (name, of) in others {
+    for (name, of) in LISTS {
         if let Some(values) = each(of) {
             line(format!("{name}: {};", list(&values)));
         }

@@ -6,7 +6,7 @@ mod shape;
 mod stl;
 mod tree;
 
-use super::arm::{self, Arm, Joint};
+use super::arm::{self, Arm, Joint, LISTS};
 use super::{Imported, text};
 use crate::diagnostic::{Diagnostic, sort};
 use crate::source::{FileId, Sources};
@@ -139,21 +139,17 @@ fn joints(robot: &Robot, chain: &Chain, notes: &mut Vec<String>) -> Result<Vec<J
     }
 }
 
-/// What the device has for all joints or for none, and the file for some of them; masses also if it has none.
+/// Lists that the device cannot have, because the file lacks a number; of those of which it has none, masses.
 fn left_out(joints: &[Joint]) -> Vec<String> {
-    type Has = fn(&Joint) -> bool;
-    let lists: [(&str, &str, Has); 4] = [
-        ("masses", "links", |joint| joint.mass.is_some()),
-        ("efforts", "joints", |joint| joint.effort.is_some()),
-        ("damping", "joints", |joint| joint.damping.is_some()),
-        ("friction", "joints", |joint| joint.friction.is_some()),
-    ];
-    let note = |(name, of, has): (&str, &str, Has)| {
-        let without = joints.iter().filter(|joint| !has(joint));
-        let without: Vec<&str> =
-            without.map(|joint| if of == "links" { &joint.link } else { &joint.name }.as_str()).collect();
-        let is_told = !without.is_empty() && (without.len() < joints.len() || of == "links");
-        is_told.then(|| format!("`{name}` is left out: the file lacks it for {}", without.join(", ")))
-    };
-    lists.into_iter().filter_map(note).collect()
+    let mut notes = Vec::new();
+    for (list, of) in LISTS {
+        let is_mass = list == "masses";
+        let without: Vec<&str> = (joints.iter().filter(|joint| of(joint).is_none()))
+            .map(|joint| if is_mass { &joint.link } else { &joint.name }.as_str())
+            .collect();
+        if !without.is_empty() && (is_mass || without.len() < joints.len()) {
+            notes.push(format!("`{list}` is left out: the file lacks it for {}", without.join(", ")));
+        }
+    }
+    notes
 }

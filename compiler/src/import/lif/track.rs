@@ -1,6 +1,6 @@
 //! Which nodes and edges are tracks: a closed way in one direction, or a way to and fro between two ends.
 
-use super::read::{Network, Node};
+use super::read::{Edge, Network, Node};
 use crate::diagnostic::Diagnostic;
 use crate::layout::decode::{Decoder, listing};
 use crate::source::Spanned;
@@ -171,12 +171,12 @@ fn track(decoder: &mut Decoder, network: &Network, mut nodes: Vec<usize>, closed
         );
         return None;
     }
-    let edges = || network.edges.iter().filter(|edge| nodes.contains(&edge.from));
-    let speeds: Vec<f64> = edges().filter_map(|edge| edge.speed).collect();
+    let edges: Vec<&Edge> = network.edges.iter().filter(|edge| nodes.contains(&edge.from)).collect();
+    let speeds: Vec<f64> = edges.iter().filter_map(|edge| edge.speed).collect();
     let speed = speeds.iter().copied().reduce(f64::min);
     let has_speeds = speeds.iter().any(|other| Some(*other) != speed);
     let without_speed =
-        edges().filter(|edge| edge.speed.is_none()).map(|edge| edge.id.value.clone()).collect();
+        edges.iter().filter(|edge| edge.speed.is_none()).map(|edge| edge.id.value.clone()).collect();
     Some(Track {
         nodes,
         closed,
