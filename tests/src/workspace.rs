@@ -6,9 +6,10 @@ use autogen::ir::System;
 use autogen::source::Sources;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{env, fs};
 
-/// A workspace in a folder of its own, which stays until the next run.
+/// A workspace in a folder of its own, which stays.
 pub struct Workspace {
     pub folder: PathBuf,
 }
@@ -22,7 +23,10 @@ impl Workspace {
 
     /// With the simulator only.
     pub fn of_simulator(name: &str) -> Self {
-        let folder = env::temp_dir().join(format!("autogen-tests-{}", std::process::id())).join(name);
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let tests = env::temp_dir().join(format!("autogen-tests-{}", std::process::id()));
+        let folder = tests.join(format!("{number}-{name}"));
         let _ = fs::remove_dir_all(&folder);
         let workspace = Self { folder };
         for (path, text) in compiled_simulator::sources() {

@@ -1,6 +1,6 @@
 //! Faults of the plant at random times, on the lines of the examples.
 //!
-//! The long form: `AUTOGEN_CAMPAIGN=full cargo test --profile optimized -p autogen-tests --test fault_campaign -- --nocapture`.
+//! The long form: `AUTOGEN_CAMPAIGN=full cargo test --profile optimized -p autogen-tests fault_campaign:: -- --nocapture`.
 
 use autogen::executor::Executor;
 use autogen_tests::{Texts, examples, is_full_campaign, on_all_processors};

@@ -1,6 +1,6 @@
 //! Automata by lot, on the executor and as compiled Rust.
 //!
-//! The long form, 1,000 automata: `AUTOGEN_CAMPAIGN=full cargo test -p autogen-tests --test generated`.
+//! The long form, 1,000 automata: `AUTOGEN_CAMPAIGN=full cargo test -p autogen-tests generated::`.
 //! `AUTOGEN_SEED=n` begins with another seed.
 
 use autogen::backend::rust;

@@ -1,7 +1,7 @@
 //! Every emitted text, judged and run beside the reference executor: examples, fixtures, hand-written traces
 //! and automata by lot.
 //!
-//! The long form, 1,000 automata: `AUTOGEN_CAMPAIGN=full cargo test -p autogen-tests --test st_compared`.
+//! The long form, 1,000 automata: `AUTOGEN_CAMPAIGN=full cargo test -p autogen-tests st_compared::`.
 
 use autogen_tests::coverage::{Coverage, Text};
 use autogen_tests::generate::generate;

@@ -1,6 +1,6 @@
 //! What is left out when a run goes from event to event: nothing that anybody could see.
 //!
-//! The long form: `AUTOGEN_CAMPAIGN=full cargo test --profile optimized -p autogen-tests --test stepping`.
+//! The long form: `AUTOGEN_CAMPAIGN=full cargo test --profile optimized -p autogen-tests stepping::`.
 
 use autogen::executor::Executor;
 use autogen::ir::{Element, Expr, PropertyKind, System, Value};
