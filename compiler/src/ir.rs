@@ -158,6 +158,9 @@ pub struct Automaton {
     pub states: Vec<State>,
     /// Looked at behind the steps of every scan, in this order.
     pub properties: Vec<Property>,
+    /// Outputs, by their numbers, that properties read and that are put out otherwise while an instance is stopped or
+    /// moved by hand: properties see what is put out.
+    pub masked: Vec<usize>,
     /// What of each instance outlasts a loss of power.
     pub retained: Retained,
     /// A local: the answer to the last command does not count, since a person has moved the machine or power was lost.

@@ -152,7 +152,7 @@ impl<'a> Reads<'a> {
                 self.expr(condition);
                 then.iter().chain(otherwise).for_each(|action| self.action(action));
             }
-            Action::Stop | Action::StayAnew | Action::BeginAnew => {}
+            Action::Stop | Action::BeginAnew => {}
         }
     }
 

@@ -1,12 +1,11 @@
 //! Systems without a layout: some instances of each automaton of a specification.
 
 use autogen::check::check;
-use autogen::device;
 use autogen::ir::{Automaton, Extent, Instance, Model, ParameterSource, Scalar, System, Value};
 use autogen::layout::Panel;
-use autogen::lower::{modes, restart};
 use autogen::source::Sources;
 use autogen::spec::parser;
+use autogen::{device, lower};
 use runtime_sim::random::Random;
 
 /// Two instances of each automaton. Every role has all members that fit it, all constants of devices are
@@ -38,10 +37,7 @@ pub fn panelled(files: &[(String, String)], panel: Panel) -> (System, Sources) {
             panic!("{}", crate::plain(&sources, &diagnostics))
         }
     };
-    restart::add(&mut model);
-    if panel == Panel::Machines {
-        modes::add(&mut model);
-    }
+    lower::complete(&mut model, panel);
     (system(model), sources)
 }
 

@@ -21,7 +21,7 @@
 //! out running                     # or `stopped`, or `fault a1 TEXT`: the fault whose description has TEXT
 //! a1 Waiting 20 n=3 slot[1]=Full  # state, elapsed ms, and what has changed: locals, cells, outputs before masking
 //! image a1.hold=1                 # an output as published; without a panel only what the table of devices says
-//! alarm a1 TEXT                   # the alarm that is told; `acknowledged` if all that last are, or `none`
+//! alarm a1 TEXT                   # the alarm that is told, or `none`
 //! ```
 //!
 //! What properties keep is `property1_waited` and the like, an alarm `alarm1_count` and the like, and `stopped`.
@@ -35,9 +35,8 @@
 use crate::plain;
 use autogen::ir::{self, InterfaceId, RoleKind, Scalar, Value};
 use autogen::layout::Panel;
-use autogen::lower::{modes, restart};
 use autogen::source::Sources;
-use autogen::{check, device, spec};
+use autogen::{check, device, lower, spec};
 use runtime_sim::device::{Direction, Stop};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 
@@ -146,10 +145,7 @@ fn panelled(spec_text: &str, kinds: &[String], panel: Panel) -> Result<(Sources,
     }
     let checked = check::check(&sources, &trees, Some(kinds)).map_err(|d| plain(&sources, &d))?;
     let mut model = checked.into_model();
-    restart::add(&mut model);
-    if panel == Panel::Machines {
-        modes::add(&mut model);
-    }
+    lower::complete(&mut model, panel);
     Ok((sources, model))
 }
 
@@ -453,7 +449,7 @@ impl<'a> Script<'a> {
             }
             "alarm" => {
                 let (alarm_code, alarm_robot) = match words[1..] {
-                    ["none" | "acknowledged"] => (0, -1),
+                    ["none"] => (0, -1),
                     [name, ref fragment @ ..] => self.site(name, fragment)?,
                     [] => return Err("which alarm?".into()),
                 };

@@ -28,6 +28,7 @@ mod functions;
 mod globals;
 mod guard;
 mod image;
+mod masks;
 mod modes;
 mod names;
 mod points;

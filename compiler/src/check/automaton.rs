@@ -27,6 +27,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         variables: Vec::new(),
         states: Vec::new(),
         properties: Vec::new(),
+        masked: Vec::new(),
         retained: ir::Retained::default(),
         abandoned: None,
         interrupted: None,

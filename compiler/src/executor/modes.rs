@@ -36,7 +36,6 @@ impl Executor<'_> {
                     debug_assert!(done.is_ok(), "an update of a mode cannot fault");
                 }
                 Action::Stop => self.robots[robot].stopped = true,
-                Action::StayAnew => self.robots[robot].elapsed = 0,
                 Action::BeginAnew => self.begin_anew(robot),
                 Action::If { condition, then, otherwise, .. } => {
                     let taken = if self.holds(robot, condition) { then } else { otherwise };

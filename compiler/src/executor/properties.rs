@@ -1,7 +1,8 @@
 //! What comes behind the steps: properties, and the alarms that they raise.
 
 use super::Executor;
-use crate::ir::{Expr, FaultId, Property, PropertyKind, Severity, Value};
+use crate::ir::{ByHand, Expr, FaultId, Property, PropertyKind, Scalar, Severity, Value};
+use runtime_sim::device::Stop;
 use runtime_sim::scan::SystemOutputs;
 
 /// An entry of the table of alarms.
@@ -19,6 +20,11 @@ pub struct Alarm {
 
 impl Alarm {
     pub(super) const NONE: Self = Self { active: false, acknowledged: true, count: 0, first: 0, last: 0 };
+
+    /// Those that are not acknowledged come first, of them the one that was raised first.
+    fn order(&self) -> (bool, i32) {
+        (self.acknowledged, self.last)
+    }
 
     /// Whether it is raised in this scan.
     fn note(&mut self, violated: bool, scan: i32) -> bool {
@@ -52,8 +58,45 @@ impl Executor<'_> {
         self.robots[robot].stopped
     }
 
-    /// All properties of an instance; `starts` says whether there is an edge of `start`.
+    /// All properties of an instance, which see what is put out; `starts` says whether there is an edge of `start`.
     pub(super) fn properties(&mut self, robot: usize, starts: bool) -> Result<(), FaultId> {
+        let system = self.system;
+        let masked = &system.automaton_of(robot).masked;
+        if masked.is_empty() {
+            return self.properties_of_values(robot, starts);
+        }
+        let put: Vec<Vec<Value>> = masked.iter().map(|port| self.put_out(robot, *port)).collect();
+        let exchange = |ports: &mut [Vec<Value>], values: Vec<Vec<Value>>| -> Vec<Vec<Value>> {
+            let exchanged = masked.iter().zip(values);
+            exchanged.map(|(port, values)| std::mem::replace(&mut ports[*port], values)).collect()
+        };
+        let set = exchange(&mut self.robots[robot].ports, put);
+        let checked = self.properties_of_values(robot, starts);
+        exchange(&mut self.robots[robot].ports, set);
+        checked
+    }
+
+    /// What an output with a stop value is while the line runs.
+    fn put_out(&mut self, robot: usize, port: usize) -> Vec<Value> {
+        let system = self.system;
+        let automaton = system.automaton_of(robot);
+        let set = self.robots[robot].ports[port].clone();
+        let is_set = |local: Option<usize>| local.is_some_and(|local| self.is_set(robot, local));
+        let modes = automaton.modes.as_ref();
+        let runs = !self.robots[robot].stopped && !is_set(modes.map(|modes| modes.moved_by_hand));
+        let (by_hand, commanded) =
+            modes.map_or((false, false), |modes| (is_set(modes.by_hand), is_set(modes.commanded)));
+        let declared = &automaton.device.ports[port];
+        match (declared.stop, modes.and_then(|modes| modes.published[port].as_ref())) {
+            _ if runs => set,
+            (_, Some(ByHand::Panel(value))) if by_hand => vec![self.value(robot, value)],
+            (_, Some(ByHand::Argument)) if commanded => set,
+            (Stop::Value(stop), _) => vec![Value::from_words(Scalar::from(declared.ty), &[stop]); set.len()],
+            (Stop::Hold, _) => set,
+        }
+    }
+
+    fn properties_of_values(&mut self, robot: usize, starts: bool) -> Result<(), FaultId> {
         let system = self.system;
         let automaton = system.automaton_of(robot);
         let was_stopped = self.robots[robot].stopped;
@@ -169,20 +212,19 @@ impl Executor<'_> {
         alarms.for_each(|alarm| alarm.acknowledged = true);
     }
 
-    /// The outputs that tell of alarms: of those that are not acknowledged, the one that was raised first.
+    /// The outputs that tell of alarms: of those that are active or not acknowledged, the first by [`Alarm::order`].
     pub(super) fn tell_alarms(&self, outputs: SystemOutputs) -> SystemOutputs {
-        let mut told: Option<(i32, FaultId, usize)> = None;
-        let mut alarm = false;
+        let mut told: Option<((bool, i32), FaultId, usize)> = None;
         for (robot, state) in self.robots.iter().enumerate() {
             for (property, entry) in self.system.automaton_of(robot).alarms().zip(&state.alarms) {
-                alarm |= entry.active || !entry.acknowledged;
-                if !entry.acknowledged && told.is_none_or(|(scan, ..)| entry.last < scan) {
-                    told = Some((entry.last, property.site, robot));
+                let is_open = entry.active || !entry.acknowledged;
+                if is_open && told.is_none_or(|(first, ..)| entry.order() < first) {
+                    told = Some((entry.order(), property.site, robot));
                 }
             }
         }
         SystemOutputs {
-            alarm,
+            alarm: told.is_some(),
             alarm_code: told.map_or(0, |(_, site, _)| site.0 as i32 + 1),
             alarm_robot: told.map_or(-1, |(_, _, robot)| robot as i32),
             ..outputs

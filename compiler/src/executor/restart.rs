@@ -40,6 +40,9 @@ impl Executor<'_> {
                 self.put_first(robot, number);
             }
         }
+        if self.robots[robot].state == 0 {
+            automaton.outputs_that_begin_anew().for_each(|port| self.put_first(robot, port));
+        }
         self.cells_begin_anew(robot);
         let has_commanded = self.port_of(robot, "cmd") != 0;
         let goes_on = self.robots[robot].state != 0;

@@ -41,9 +41,8 @@ pub enum Action {
     Update(Update),
     /// The instance is stopped.
     Stop,
-    /// The time in its state becomes 0.
-    StayAnew,
-    /// State, locals, cells of its own and outputs with stop values are those of power-up, but for what is retained.
+    /// State, locals and cells of its own are those of power-up, but for what is retained; so are outputs with stop
+    /// values, even if they are retained.
     BeginAnew,
     If {
         /// Why, in a sentence; empty if the condition says it.
@@ -55,15 +54,14 @@ pub enum Action {
 }
 
 impl Automaton {
-    /// Outputs of the device, by their numbers, that are as at power-up when an instance begins anew by hand.
+    /// Outputs of the device, by their numbers, that are as at power-up when an instance begins anew: no earlier command
+    /// is finished.
     pub fn outputs_that_begin_anew(&self) -> impl Iterator<Item = usize> {
         let has_stop =
             |port: &crate::device::Port| port.direction == Direction::Output && port.stop != Stop::Hold;
         let is_hold = |port: &crate::device::Port| self.device.is_commanded() && port.name == "hold";
         let ports = self.device.ports.iter().enumerate();
-        let begins = move |(number, port): &(usize, &crate::device::Port)| {
-            has_stop(port) && !is_hold(port) && !self.retained.ports.contains(number)
-        };
+        let begins = move |(_, port): &(usize, &crate::device::Port)| has_stop(port) && !is_hold(port);
         ports.filter(begins).map(|(number, _)| number)
     }
 }

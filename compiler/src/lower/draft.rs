@@ -1,9 +1,7 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{
-    Project, Verdict, bind, collected, device_key, kinds, modes, overlap, plant, restart, role, short,
-};
+use super::{Project, Verdict, bind, collected, complete, device_key, kinds, overlap, plant, role, short};
 use crate::check::{self, Checked};
 use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};
@@ -152,10 +150,7 @@ impl Draft {
             }
             Ok(checked) => {
                 let mut model = checked.into_model();
-                restart::add(&mut model);
-                if layout.panel == Panel::Machines {
-                    modes::add(&mut model);
-                }
+                complete(&mut model, layout.panel);
                 Some(model)
             }
             Err(found) => {

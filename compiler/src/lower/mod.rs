@@ -6,11 +6,12 @@ mod collected;
 mod device_key;
 mod draft;
 mod kinds;
-pub mod modes;
+mod masked;
+mod modes;
 mod overlap;
 mod parameter;
 mod plant;
-pub mod restart;
+mod restart;
 mod role;
 mod setting;
 mod short;
@@ -20,7 +21,7 @@ pub use draft::{Draft, Line, Texts};
 pub use setting::Setting;
 
 use crate::diagnostic::Diagnostic;
-use crate::layout::{MayTouch, Reading};
+use crate::layout::{MayTouch, Panel, Reading};
 use crate::scenario::Drawn;
 use crate::source::{FileId, Sources};
 use crate::{connect, ir};
@@ -42,6 +43,15 @@ pub struct Input {
     pub settings: Vec<Setting>,
     /// Steps the instances in an order shuffled with this seed instead of layout order.
     pub order: Option<u64>,
+}
+
+/// Adds what no text declares: how each type continues after a loss of power, its panel, and what its properties see.
+pub fn complete(model: &mut ir::Model, panel: Panel) {
+    restart::add(model);
+    if panel == Panel::Machines {
+        modes::add(model);
+    }
+    masked::add(model);
 }
 
 /// A line that has passed every check.

@@ -61,9 +61,9 @@ impl Builder<'_> {
                 vec![Action::Stop],
             ),
             when(
-                "Single step has ended: the time of the state begins anew.",
+                "Single step has ended: it is stopped until start.",
                 and(vec![self.read(single_before), is_not_single.clone()]),
-                vec![Action::StayAnew],
+                vec![Action::Stop],
             ),
         ];
         let edge = and(vec![step.clone(), not(self.read(step_before))]);

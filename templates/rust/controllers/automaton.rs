@@ -223,8 +223,21 @@ impl<'a> {{ ty }}<'a> {
     }
     {%- if !properties.is_empty() %}
 
+    {%- if masks %}
+    /// Checks the properties, after the steps of every scan. They see the outputs that are put out.
+    pub fn properties(&mut self, {{ property_parameters }}) -> Result<(), Fault> {
+        let set = self.outputs;
+        self.outputs = self.published(true);
+        let checked = self.check_properties({{ property_arguments }});
+        self.outputs = set;
+        checked
+    }
+
+    fn check_properties(&mut self, {{ property_parameters }}) -> Result<(), Fault> {
+    {%- else %}
     /// Checks the properties, after the steps of every scan.
     pub fn properties(&{% if remembers %}mut {% endif %}self, {{ property_parameters }}) -> Result<(), Fault> {
+    {%- endif %}
         {%- for property in properties %}
         {{ property }}
         {%- endfor %}

@@ -32,7 +32,7 @@ pub struct SystemOutputs {
     {%- if alarms %}
     /// An alarm is active, or not acknowledged.
     pub alarm: bool,
-    /// Code of the first raised alarm that is not acknowledged; 0 if there is none.
+    /// Code of the first raised alarm that is not acknowledged, or else of those that are active; 0 if there is none.
     pub alarm_code: i32,
     /// Number of the robot that raised it; -1 if there is none.
     pub alarm_robot: i32,
@@ -99,7 +99,7 @@ impl System {
             self.running = true;
         }
         {%- if modes %}
-        if let Err(fault) = run([inputs.run_permit, self.running], {% else %}
+        if let Err(fault) = run(inputs.run_permit, self.running, {% else %}
         if self.running
             && let Err(fault) = run({% endif %}wiring, robots{% if uses_cells %}, cells{% endif %}{% if scan %}, self.scan{% endif %}{% if start %}, start{% endif %})
         {
@@ -116,7 +116,7 @@ impl System {
             fault_code: self.fault.map_or(0, |(fault, _)| fault.code),
             fault_robot: self.fault.map_or(-1, |(_, robot)| robot as i32),
             {%- if alarms %}
-            alarm: robots.iter().any(|robot| robot.alarms().iter().any(Alarm::is_open)),
+            alarm: first.is_some(),
             alarm_code: first.map_or(0, |(alarm, _)| alarm.cause.code),
             alarm_robot: first.map_or(-1, |(_, robot)| robot as i32),
             {%- endif %}
@@ -252,17 +252,18 @@ impl Default for System {
 }
 
 {%- if alarms %}
-/// The first raised alarm that is not acknowledged, and its robot.
+/// The first raised alarm that is not acknowledged, or else of those that are active, and its robot.
 fn first_alarm<'a>(robots: &'a [Robot]) -> Option<(&'a Alarm, usize)> {
     let robots = robots.iter().enumerate();
     let alarms = robots.flat_map(|(number, robot)| robot.alarms().iter().map(move |alarm| (alarm, number)));
-    alarms.filter(|(alarm, _)| !alarm.acknowledged).min_by_key(|(alarm, _)| alarm.last)
+    alarms.filter(|(alarm, _)| alarm.is_open()).min_by_key(|(alarm, _)| (alarm.acknowledged, alarm.last))
 }
 
 {% endif -%}
 {% if modes %}/// The panel and a step of each robot, in turn; no steps after the first fault.
 fn run(
-    [permit, running]: [bool; 2],
+    permit: bool,
+    running: bool,
 {%- else %}/// A step of each robot, up to the first fault.
 fn run(
 {%- endif %}

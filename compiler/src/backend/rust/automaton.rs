@@ -39,6 +39,9 @@ struct Module {
     failed: bool,
     properties: Vec<String>,
     property_parameters: String,
+    property_arguments: String,
+    /// Properties see other outputs than the automaton has set.
+    masks: bool,
     /// Properties keep something from scan to scan.
     remembers: bool,
     anew: Vec<String>,
@@ -143,6 +146,8 @@ pub fn module(context: &Context) -> String {
         failed: asked.failed,
         properties: property::properties(context),
         property_parameters: context.parameters(&property::uses(context)),
+        property_arguments: context.arguments(&property::uses(context)),
+        masks: !automaton.masked.is_empty(),
         remembers: property::remembers(automaton),
         anew: property::anew(context),
         counters: property::counters(context),
@@ -196,7 +201,8 @@ fn role_doc(kind: RoleKind) -> &'static str {
     }
 }
 
-fn port_field(context: &Context, port: &Port, name: &str) -> Field {
+/// The value of a port at power-up.
+pub fn first_value(context: &Context, port: &Port) -> String {
     let ty = Type { scalar: Scalar::from(port.ty), extent: Extent::from(port.extent) };
     let first = match port.ty {
         PortType::Bool => Value::Bool(false),
@@ -204,8 +210,14 @@ fn port_field(context: &Context, port: &Port, name: &str) -> Field {
         PortType::Real => Value::Real(0.0),
         PortType::Point => Value::Point([0.0; 3]),
     };
+    context.filled(ty, first)
+}
+
+fn port_field(context: &Context, port: &Port, name: &str) -> Field {
+    let ty = Type { scalar: Scalar::from(port.ty), extent: Extent::from(port.extent) };
     let text = sentence(&port.about(", in "));
-    Field { doc: doc(&[text]), name: name.into(), ty: context.ty(ty), initial: context.filled(ty, first) }
+    let initial = first_value(context, port);
+    Field { doc: doc(&[text]), name: name.into(), ty: context.ty(ty), initial }
 }
 
 /// With a capital and a full stop, if there is a text.

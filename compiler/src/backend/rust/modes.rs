@@ -84,7 +84,6 @@ impl Context<'_> {
         match action {
             Action::Update(update) => self.update(update),
             Action::Stop => "self.stopped = true;".into(),
-            Action::StayAnew => "self.elapsed = 0;".into(),
             Action::BeginAnew => format!("self.begin_anew({});", self.arguments(&uses(self))),
             Action::If { about, condition, then, otherwise } => {
                 let title = if about.is_empty() { String::new() } else { comment(about) };

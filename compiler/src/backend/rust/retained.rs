@@ -1,7 +1,7 @@
 //! What outlasts a loss of power: methods that write it as words, and read it again.
 
 use super::context::{Context, Shared};
-use super::{format, render};
+use super::{automaton, format, render};
 use crate::ir::{Automaton, Extent, Scalar, Type};
 use askama::Template;
 use runtime_sim::device::{LAST_COMMAND, PortType};
@@ -95,6 +95,7 @@ pub fn methods(context: &Context) -> Option<Methods> {
         put.push(format!("Retained::put({place}, put);"));
         take.push(format!("{place} = {};", taken(context, *ty)));
     }
+    take.extend(commands_at_the_beginning(context, automaton));
     if let (Some(abandoned), Some(interrupted)) = (automaton.abandoned, automaton.interrupted)
         && automaton.retained.state
     {
@@ -151,6 +152,22 @@ fn values(context: &Context) -> Vec<(String, Type)> {
         values.push((format!("self.outputs.{name}"), Type { scalar, extent: Extent::from(port.extent) }));
     }
     values
+}
+
+/// From the beginning no earlier command is finished.
+fn commands_at_the_beginning(context: &Context, of: &Automaton) -> Option<String> {
+    let retained = of.outputs_that_begin_anew().filter(|port| of.retained.ports.contains(port));
+    let anew = retained.map(|number| {
+        let value = automaton::first_value(context, &of.device.ports[number]);
+        format!("self.outputs.{} = {value};", context.own().ports[number])
+    });
+    let anew: String = anew.collect();
+    let first = &context.own().states[0];
+    match (anew.is_empty(), of.retained.state) {
+        (true, _) => None,
+        (false, true) => Some(format!("if self.state == State::{first} {{ {anew} }}")),
+        (false, false) => Some(anew),
+    }
 }
 
 fn taken(context: &Context, ty: Type) -> String {

@@ -69,6 +69,9 @@ pub fn tables(shared: Shared) -> Vec<Table> {
     tables
 }
 
+/// Of the alarm that is told so far.
+pub const OLDEST_ACKNOWLEDGED: &str = "oldest_acknowledged";
+
 fn of(array: &str) -> Ex {
     Ex::Element(array.into(), Box::new(name(ELEMENT)))
 }
@@ -97,26 +100,33 @@ pub fn told(shared: Shared) -> Vec<Stmt> {
         return Vec::new();
     }
     let is_open = or(vec![of("alarms_active"), not(of("alarms_acknowledged"))]);
-    let is_first =
-        or(vec![binary("=", name("alarm_code"), Ex::Int(0)), binary("<", of("alarms_last"), name("oldest"))]);
+    let is_first = or(vec![
+        binary("=", name("alarm_code"), Ex::Int(0)),
+        and(vec![name(OLDEST_ACKNOWLEDGED), not(of("alarms_acknowledged"))]),
+        and(vec![
+            binary("=", name(OLDEST_ACKNOWLEDGED), of("alarms_acknowledged")),
+            binary("<", of("alarms_last"), name("oldest")),
+        ]),
+    ]);
     let tell = vec![
         assign("alarm_code", of("alarms_code")),
         assign("alarm_robot", of("alarms_robot")),
         assign("oldest", of("alarms_last")),
+        assign(OLDEST_ACKNOWLEDGED, of("alarms_acknowledged")),
     ];
     let mut body = vec![
-        Stmt::Comment("Alarms: the first raised one that is not acknowledged.".into()),
+        Stmt::Comment(
+            "Alarms: the first raised one that is not acknowledged, or else of those that are active.".into(),
+        ),
         assign("alarm", Ex::Bool(false)),
         assign("alarm_code", Ex::Int(0)),
         assign("alarm_robot", Ex::Int(-1)),
         assign("oldest", Ex::Int(0)),
+        assign(OLDEST_ACKNOWLEDGED, Ex::Bool(false)),
     ];
     body.extend(each(
         shared,
-        vec![
-            when(is_open, vec![assign("alarm", Ex::Bool(true))]),
-            when(and(vec![not(of("alarms_acknowledged")), is_first]), tell),
-        ],
+        vec![when(is_open, vec![assign("alarm", Ex::Bool(true)), when(is_first, tell)])],
     ));
     body
 }

@@ -32,8 +32,10 @@ pub enum Origin {
         port: usize,
         part: usize,
     },
-    /// Kept in the block of the steps.
+    /// Kept in the block of the steps, under the same name.
     Kept,
+    /// Kept in the block of the steps, under this name.
+    KeptAs(String),
     /// Its first entry in the table of alarms.
     AlarmEntry,
 }
@@ -378,6 +380,7 @@ pub fn argument(shared: Shared, robot: usize, input: &str, origin: &Origin) -> E
         }
         Origin::AlarmEntry => Ex::Int(shared.names.alarms_before[robot] as i32),
         Origin::Kept => Ex::Field(names.instance.clone(), input.into()),
+        Origin::KeptAs(ref name) => Ex::Field(names.instance.clone(), name.clone()),
     }
 }
 

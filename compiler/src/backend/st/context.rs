@@ -88,6 +88,11 @@ impl<'a> Lowering<'a> {
         name
     }
 
+    /// A name that nothing else of the block has.
+    pub fn free_name(&mut self, wanted: &str) -> String {
+        self.scope.take(wanted)
+    }
+
     /// Forgets the defines that read what these statements write.
     pub fn forget(&mut self, statements: &[Stmt]) {
         let mut written = written(statements);

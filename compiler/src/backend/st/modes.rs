@@ -40,7 +40,6 @@ impl Lowering<'_> {
                     out.extend(statements.into_iter().filter(|s| !matches!(s, Stmt::Comment(_))));
                 }
                 Action::Stop => out.push(Stmt::Assign(own_stop(), Ex::Bool(true))),
-                Action::StayAnew => out.push(assign("elapsed", Ex::Int(0))),
                 Action::BeginAnew => out.extend(anew.iter().cloned()),
                 Action::If { about, condition, then, otherwise } => {
                     self.release();
@@ -63,14 +62,12 @@ impl Lowering<'_> {
     fn begin_anew(&self, kept: &[&Candidate], globals: &Globals) -> Vec<Stmt> {
         let automaton = self.automaton();
         let own_ports = || self.own().ports.iter();
-        let anew: Vec<&String> =
-            automaton.outputs_that_begin_anew().flat_map(|port| &self.own().ports[port]).collect();
+        let anew = self.outputs_that_begin_anew();
         let begins = |candidate: &&&Candidate| {
             let name = &candidate.variable.name;
             let is_port = own_ports().flatten().any(|port| port == name);
             candidate.kept_by == KeptBy::Steps
-                && !candidate.variable.is_retained
-                && (!is_port || anew.contains(&name))
+                && if is_port { anew.contains(&name) } else { !candidate.variable.is_retained }
         };
         let begins: Vec<&Candidate> = kept.iter().filter(begins).copied().collect();
         let mut out =
@@ -81,6 +78,11 @@ impl Lowering<'_> {
         out.extend(kept_values(&begins));
         out.extend(self.own_cells(globals, |table| !self.retains_own(&table.variable.name)));
         out
+    }
+
+    /// The variables of outputs that are as at power-up when the robot begins anew.
+    pub fn outputs_that_begin_anew(&self) -> Vec<&String> {
+        self.automaton().outputs_that_begin_anew().flat_map(|port| &self.own().ports[port]).collect()
     }
 
     /// The initial values of its own elements of those arrays of cells.

@@ -1,5 +1,6 @@
 //! The identifiers of one system in Structured Text.
 
+use super::alarm::OLDEST_ACKNOWLEDGED;
 use super::declaration::suffixes;
 use super::restart::KEPT;
 use super::role::{self, Members};
@@ -90,6 +91,7 @@ const PROGRAM: &[&str] = &[
     "layout",
     "watchdog",
     "oldest",
+    OLDEST_ACKNOWLEDGED,
     ELEMENT,
     ROUNDED,
 ];

@@ -130,7 +130,8 @@ pub fn program<'a>(
             Variable::new("had_fault", Basic::Bool)
                 .with_comment("there was a fault at the beginning of the scan"),
             Variable::new("oldest", Basic::Dint)
-                .with_comment("scan of the first alarm that is not acknowledged"),
+                .with_comment("scan in which the alarm that is told was raised"),
+            Variable::new(alarm::OLDEST_ACKNOWLEDGED, Basic::Bool).with_comment("it has been acknowledged"),
             Variable::new(ELEMENT, Basic::Dint).with_comment("number of an element"),
             Variable::new(ROUNDED, Basic::Dint)
                 .with_comment("a raw value before its conversion to a narrower type"),

@@ -10,6 +10,7 @@ use super::dead;
 use super::declaration::{Basic, Unit, Variable};
 use super::expression::guarded;
 use super::globals::Index;
+use super::masks::{self, Masks};
 use super::modes::{self, BEGUN_ANEW};
 use crate::ir::{AutomatonId, Expr, KeptBy, Property, PropertyKind, Scalar, Severity};
 
@@ -30,6 +31,7 @@ pub fn block<'a>(shared: Shared, id: AutomatonId, globals: &Index) -> Option<Blo
     if automaton.properties.is_empty() && automaton.modes.is_none() {
         return None;
     }
+    let masks = Masks::new(&mut lowering);
     let tests = body(&mut lowering);
     let mut body = anew(&lowering);
     let begins = modes::tells_anew(automaton);
@@ -37,8 +39,10 @@ pub fn block<'a>(shared: Shared, id: AutomatonId, globals: &Index) -> Option<Blo
     if automaton.can_stop() {
         body.push(assign(WAS_STOPPED, own_stop()));
     }
+    body.extend(masks.statements);
     body.extend(dead::without_unread(tests, &made(&lowering)));
-    let all = candidates(shared, id);
+    let mut all = candidates(shared, id);
+    let put_out = masks::put_out(&mut all, &masks.set);
     let used = code::names(&body);
     let kept: Vec<&Candidate> =
         all.iter().filter(|c| c.kept_by == KeptBy::Properties && used.contains(&c.variable.name)).collect();
@@ -55,6 +59,7 @@ pub fn block<'a>(shared: Shared, id: AutomatonId, globals: &Index) -> Option<Blo
     ];
     let own = own.map(|(name, about)| Variable::new(name, Basic::Bool).with_comment(about));
     variables.extend(own.into_iter().filter(|variable| used.contains(&variable.name)));
+    variables.extend(put_out);
     variables.extend(locals(shared, id, &lowering.temporaries, &used));
     let mut given: Vec<Candidate> = all.into_iter().filter(|c| c.kept_by != KeptBy::Properties).collect();
     given.push(begun_anew());

@@ -106,7 +106,8 @@ impl Lowering<'_> {
     /// What the block of a robot does in the first scan.
     pub fn power_up(&self, kept: &[&Candidate], globals: &Globals) -> Vec<Stmt> {
         let automaton = self.automaton();
-        let beginning = || assign("state", Ex::Member(self.state(self.id, 0)));
+        let first_state = || Ex::Member(self.state(self.id, 0));
+        let beginning = || assign("state", first_state());
         let retained = &automaton.retained;
         if retained.is_empty() {
             let mut body = vec![beginning(), assign("elapsed", Ex::Int(0))];
@@ -116,6 +117,9 @@ impl Lowering<'_> {
         }
         let (stays, begins): (Vec<&Candidate>, Vec<&Candidate>) =
             kept.iter().copied().partition(|candidate| candidate.variable.is_retained);
+        let outputs = self.outputs_that_begin_anew();
+        let commands: Vec<&Candidate> =
+            stays.iter().filter(|candidate| outputs.contains(&&candidate.variable.name)).copied().collect();
         let mut cold = Vec::new();
         let mut body = Vec::new();
         if retained.state { &mut cold } else { &mut body }.push(beginning());
@@ -130,6 +134,14 @@ impl Lowering<'_> {
             body.push(Stmt::Comment("It continues only in states that say `resume`.".into()));
             body.push(when(super::code::or(begins_anew), vec![beginning()]));
         }
+        if !commands.is_empty() {
+            body.push(Stmt::Comment("From its beginning no earlier command is finished.".into()));
+            let commands = kept_values(&commands);
+            match retained.state {
+                true => body.push(when(binary("=", name("state"), first_state()), commands)),
+                false => body.extend(commands),
+            }
+        }
         body.push(assign("elapsed", Ex::Int(0)));
         let told: Vec<String> = (automaton.abandoned.iter().chain(&automaton.interrupted))
             .map(|local| self.own().locals[*local][0].clone())
@@ -141,7 +153,7 @@ impl Lowering<'_> {
             table.variable.is_retained && !self.retains_own(&table.variable.name)
         }));
         if let ([abandoned, interrupted], true) = (told.as_slice(), retained.state) {
-            let goes_on = binary("<>", name("state"), Ex::Member(self.state(self.id, 0)));
+            let goes_on = binary("<>", name("state"), first_state());
             body.push(assign(abandoned, binary("<>", self.command_number(), Ex::Int(0))));
             body.push(assign(interrupted, and(vec![name(abandoned), goes_on])));
         }
