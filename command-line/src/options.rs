@@ -313,7 +313,7 @@ pub struct VerifyOptions {
     pub input: InputOptions,
     /// Greatest number of devices that answer in one scan; default: one, and if nothing is found any number
     #[arg(long, value_name = "K")]
-    pub answers: Option<usize>,
+    pub answers: Option<NonZeroUsize>,
     /// No command fails and no item is lost
     #[arg(long)]
     pub no_faults: bool,

@@ -123,6 +123,7 @@ pub fn run(options: &VerifyOptions) -> Status {
     };
     match options.input.format {
         Format::Json => say!("{}", report.json()),
+        Format::Text if options.input.quiet && found.violations.is_empty() && found.is_proved() => {}
         Format::Text => say_part!("{}", report.text()),
     }
     match (found.violations.is_empty(), found.is_proved()) {
@@ -157,7 +158,7 @@ fn search(
     };
     let is_first = options.answers.is_none();
     let mut bounds = Bounds {
-        answers: options.answers.or(Some(1)),
+        answers: Some(options.answers.map_or(1, NonZeroUsize::get)),
         states: if is_first { STATES } else { usize::MAX },
         orders: options.orders.into(),
         time: Some(time),

@@ -47,6 +47,8 @@ mod report;
 mod restarts;
 #[path = "command_line/scenario_of_violation.rs"]
 mod scenario_of_violation;
+#[path = "command_line/search_limits.rs"]
+mod search_limits;
 #[path = "command_line/side_by_side.rs"]
 mod side_by_side;
 #[path = "command_line/sweep.rs"]

@@ -18,6 +18,9 @@ const RUN: usize = 256;
 /// The same at least.
 const SHORT: usize = 4;
 
+/// After so many successors of a state it is looked up how much memory they take.
+const SUCCESSORS: u64 = 1024;
+
 /// What follows some states, the first of which is `first`.
 pub(crate) struct Expanded {
     pub first: usize,
@@ -156,8 +159,12 @@ impl Expanded {
         let begin = steps.len();
         let (beside, mut other) = (store.coded(state, &before), Vec::new());
         let model = expander.model;
+        let cut = expander.cut.clone();
         let mut emit = |successor: Successor| {
             after.transitions += 1;
+            if after.transitions % SUCCESSORS == 0 {
+                cut.takes(size_of::<Step>() * steps.capacity() + codes.capacity() + unknown.size());
+            }
             if successor.result.is_err() {
                 for (instance, program) in model.instances.iter().enumerate() {
                     let state = program.state.load(successor.state) as usize;

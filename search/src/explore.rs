@@ -9,6 +9,7 @@ mod outcome;
 use outcome::{Again, Certain};
 pub use outcome::{Bounds, Covered, Decided, End, Outcome};
 
+use crate::cut::{Because, Cut};
 use crate::event::Event;
 use crate::expanded::{self, Expanded, Step};
 use crate::model::Model;
@@ -25,6 +26,7 @@ use crate::violation::Violation;
 use std::collections::{BTreeSet, HashSet};
 use std::mem::discriminant;
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// States are expanded for so long before what was found is put together.
@@ -88,6 +90,7 @@ struct Search<'a> {
     certain: usize,
     /// Bytes that are kept to be used again.
     again: usize,
+    cut: Arc<Cut>,
     covered: Covered,
 }
 
@@ -99,11 +102,14 @@ impl<'a> Search<'a> {
         postpones: bool,
         watch: &'a mut dyn FnMut(&Covered) -> bool,
     ) -> Self {
+        let cut = Cut::new(bounds.time.and_then(|time| begin.checked_add(time)));
+        cut.allow(bounds.memory / bounds.jobs.max(1));
         let expander = || {
             let mut expander = Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
             if postpones {
                 expander.postponing = Postponing::new(model);
             }
+            expander.cut = cut.clone();
             expander
         };
         let mut store = Reached::new(model.initial.len());
@@ -129,6 +135,7 @@ impl<'a> Search<'a> {
             needed: Vec::new(),
             certain: 0,
             again: 0,
+            cut,
             covered: Covered::default(),
         }
     }
@@ -196,6 +203,9 @@ impl<'a> Search<'a> {
             let Self { expanders, store, restless, representatives, .. } = self;
             let postponed = representatives.as_ref().map(|all| all.postponed.as_slice());
             let runs = expanded::expand(expanders, part, store, restless, postponed, batch, spare);
+            if let Some(end) = self.is_cut() {
+                return Some(end);
+            }
             for run in &runs {
                 let mut numbers = Vec::new();
                 for (state, after) in run.states.iter().enumerate() {
@@ -205,6 +215,9 @@ impl<'a> Search<'a> {
                         let postponed = self.representatives.as_ref().map(|all| all.postponed.as_slice());
                         let restless = self.restless[next];
                         again.expand(&mut self.first, part, &self.store, next, restless, postponed);
+                        if let Some(end) = self.is_cut() {
+                            return Some(end);
+                        }
                         self.add(part, &again, 0, &mut Vec::new());
                     } else {
                         self.add(part, run, state, &mut numbers);
@@ -331,6 +344,17 @@ impl<'a> Search<'a> {
             + self.again
             + self.representatives.as_ref().map_or(0, Representatives::size);
         self.covered.states = self.store.len();
+        self.cut.allow(self.bounds.memory.saturating_sub(self.covered.memory) / self.bounds.jobs.max(1));
+    }
+
+    /// Not all that follows the states at hand was found: none of it is used.
+    fn is_cut(&mut self) -> Option<End> {
+        let end = match self.cut.because()? {
+            Because::OfTime => End::TimeIsUp,
+            Because::OfMemory => End::MemoryIsFull,
+        };
+        self.measure();
+        Some(end)
     }
 
     /// Why it has to end here, if it has to.

@@ -4,6 +4,7 @@
 
 mod act;
 mod choice;
+mod cut;
 mod decision;
 mod evaluate;
 pub mod event;

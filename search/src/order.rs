@@ -134,7 +134,7 @@ impl Expander<'_> {
             let first = self.group(&midway, group & !midway.marks.stepped);
             for instance in members(midway.marks.due & first) {
                 self.choices.clear();
-                loop {
+                while !self.is_cut() {
                     let mut after = self.copy(&midway);
                     if let Err(violation) = self.step(&mut after, instance) {
                         self.fail(&after, violation, emit);
@@ -211,7 +211,7 @@ impl Expander<'_> {
 
     fn finish(&mut self, midway: &Midway, touched: u64, emit: &mut impl FnMut(Successor)) {
         self.choices.clear();
-        loop {
+        while !self.is_cut() {
             let mut end = self.copy(midway);
             self.noted.clear();
             self.remarked.clear();

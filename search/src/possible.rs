@@ -1,6 +1,7 @@
 //! Whether the orders can always still be made, and what is waited for can always still come: from every state that was
 //! reached there is a path to one in which it is so, on which no device fails any more.
 
+use crate::cut::Cut;
 use crate::explore::{Bounds, Decided};
 use crate::model::{Model, Reductions};
 use crate::property::Check;
@@ -128,6 +129,7 @@ impl<'a> Possible<'a> {
     ) -> Self {
         let mut expander = Expander::new(calm, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
         expander.values.clone_from(values);
+        expander.cut = Cut::new(allowance.until);
         Self { store, states, edges, expander, allowance, bound: None }
     }
 
@@ -278,6 +280,9 @@ impl<'a> Possible<'a> {
                     all.push((state as u32, to as u32));
                 }
             });
+            if expander.cut.because().is_some() {
+                return Err(UsedUp.into());
+            }
             can[state] = leads_to_stop && stops == Stops::AreGoals;
             all.dedup();
         }

@@ -1,6 +1,7 @@
 //! All that may follow a state: what devices do, then one scan.
 
 use crate::choice::Choices;
+use crate::cut::Cut;
 use crate::decision::Decisions;
 use crate::event::{self, Event};
 use crate::footprint::{Footprint, footprints};
@@ -14,6 +15,7 @@ use crate::stop::{Stopped, Stops};
 use crate::unread::Needed;
 use crate::value::Values;
 use crate::violation::Violation;
+use std::sync::Arc;
 
 /// In which orders the instances step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +82,14 @@ pub struct Expander<'a> {
     pub(crate) own: Vec<u8>,
     /// Successors are looked at, and not told.
     is_silent: bool,
+    /// Where expansions end before they are complete.
+    pub(crate) cut: Arc<Cut>,
+    /// Scans since the last look at the clock.
+    scans: u32,
 }
+
+/// So many scans take some milliseconds at most.
+const SCANS: u32 = 256;
 
 /// What a device may do.
 #[derive(Clone, Copy)]
@@ -161,7 +170,19 @@ impl<'a> Expander<'a> {
             stops: Stops::default(),
             own: Vec::new(),
             is_silent: false,
+            cut: Cut::new(None),
+            scans: 0,
         }
+    }
+
+    /// Whether the expansion is cut here; called for each scan.
+    pub(crate) fn is_cut(&mut self) -> bool {
+        self.scans += 1;
+        if self.scans >= SCANS {
+            self.scans = 0;
+            self.cut.look_at_the_clock();
+        }
+        self.cut.because().is_some()
     }
 
     /// Calls `emit` with every successor; a state may come several times.
@@ -352,6 +373,9 @@ impl<'a> Expander<'a> {
         touched: u64,
         emit: &mut impl FnMut(Successor),
     ) {
+        if self.cut.because().is_some() {
+            return;
+        }
         let has_to_fail = self.part == Part::Failing && self.faults == 0;
         let is_fresh = self.postponed.fresh != 0;
         if has_to_fail && !is_fresh && !options.iter().flatten().any(|choice| choice.is_fault) {
@@ -402,7 +426,7 @@ impl<'a> Expander<'a> {
             return;
         }
         self.choices.clear();
-        loop {
+        while !self.is_cut() {
             self.work.copy_from_slice(&self.levels[level]);
             self.noted.clear();
             self.remarked.clear();

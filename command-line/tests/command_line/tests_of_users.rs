@@ -315,3 +315,25 @@ fn alarms_are_expected_and_told() {
         assert_eq!(said(&output).matches(told).count(), 2, "{told}\n{}", said(&output));
     }
 }
+
+#[test]
+fn words_of_tests_may_be_names_of_variables() {
+    let folder = folder("test_words");
+    let automaton = "automaton Own on bin {
+        local fault: int 0..9 := 1; local alarm: int 0..9 := 2; local no: int 0..9 := 3;
+        initial state S { when after 1 s -> T { fault += 1; alarm += 1; no += 1; } }
+        final state T;
+    }";
+    let layout = r#"{"specs": "own.aut", "robots": [], "stationary": [
+        {"name": "own", "type": "own", "pose": [0, 0, 0], "box": [1, 1, 1]}
+    ]}"#;
+    let test = r#"layout "line.json"; test "words" of own {
+        0 s: -> S, fault = 1, alarm = 2, no = 3;
+        1 s: -> T, fault = 2, alarm = 3, no = 4, no alarm;
+    }"#;
+    for (file, text) in [("own.aut", automaton), ("line.json", layout), ("own.test", test)] {
+        fs::write(folder.join(file), text).expect("a file that can be written");
+    }
+    let output = autogen(&folder, &["test", "."]);
+    assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
+}

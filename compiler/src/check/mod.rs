@@ -18,7 +18,7 @@ mod state;
 mod types;
 mod update;
 mod used;
-mod work;
+pub(crate) mod work;
 
 pub use used::used;
 

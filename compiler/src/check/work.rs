@@ -6,24 +6,20 @@ use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, Model, Scalar, Variab
 use crate::source::Span;
 
 /// Operations that one guard, definition or condition may take at most.
-const MOST: u64 = 1_000_000;
+pub(crate) const MOST: u64 = 1_000_000;
 /// Members that a role without a greatest number is taken to have, before a layout is known.
 const MEMBERS: u64 = 16;
 
 impl Context<'_, '_> {
     /// Refuses what could take too long.
     pub(super) fn bounded_work(&mut self) {
-        let work = Work::new(&self.checker.model, &self.automaton);
+        let roles = self.automaton.roles.iter();
+        let members = roles.map(|role| role.max.map_or(MEMBERS, |max| max as u64)).collect();
+        let work = Work::new(&self.checker.model, &self.automaton, members);
         let automaton = &self.automaton;
         let mut found: Vec<(Span, u64)> =
             automaton.defines.iter().zip(&work.defines).map(|(define, work)| (define.place, *work)).collect();
-        for state in &automaton.states {
-            found.extend(state.transitions.iter().map(|t| (t.place, work.guard(&t.clauses))));
-        }
-        found.extend(automaton.properties.iter().map(|property| {
-            let exprs = property.exprs().into_iter();
-            (property.place, exprs.fold(0, |sum, expr| u64::saturating_add(sum, work.of(expr))))
-        }));
+        found.extend(work.of_scans());
         found.extend(automaton.requires.iter().map(|r| (r.place, work.of(&r.condition))));
         for (place, work) in found.into_iter().filter(|(_, work)| *work > MOST) {
             self.report(
@@ -36,16 +32,19 @@ impl Context<'_, '_> {
     }
 }
 
-struct Work<'a> {
+/// Operations, as numbers of expressions that are evaluated.
+pub(crate) struct Work<'a> {
     model: &'a Model,
     automaton: &'a Automaton,
+    /// Of each role.
+    members: Vec<u64>,
     /// Of each definition.
     defines: Vec<u64>,
 }
 
 impl<'a> Work<'a> {
-    fn new(model: &'a Model, automaton: &'a Automaton) -> Self {
-        let mut work = Self { model, automaton, defines: Vec::new() };
+    pub fn new(model: &'a Model, automaton: &'a Automaton, members: Vec<u64>) -> Self {
+        let mut work = Self { model, automaton, members, defines: Vec::new() };
         for define in &automaton.defines {
             let of = work.of(&define.value);
             work.defines.push(of);
@@ -53,7 +52,18 @@ impl<'a> Work<'a> {
         work
     }
 
-    fn of(&self, expr: &Expr) -> u64 {
+    /// Of each guard and each property, with its place.
+    pub fn of_scans(&self) -> Vec<(Span, u64)> {
+        let transitions = self.automaton.states.iter().flat_map(|state| &state.transitions);
+        let mut found: Vec<_> = transitions.map(|t| (t.place, self.guard(&t.clauses))).collect();
+        found.extend(self.automaton.properties.iter().map(|property| {
+            let exprs = property.exprs().into_iter();
+            (property.place, exprs.fold(0, |sum, expr| u64::saturating_add(sum, self.of(expr))))
+        }));
+        found
+    }
+
+    pub fn of(&self, expr: &Expr) -> u64 {
         match &expr.kind {
             // A definition reads only those before it.
             ExprKind::Define(define) => self.defines.get(*define).copied().unwrap_or(1).saturating_add(1),
@@ -81,7 +91,7 @@ impl<'a> Work<'a> {
 
     fn size(&self, variable: VariableId, domain: &Domain) -> u64 {
         match domain {
-            Domain::Role(id) => self.automaton.roles[id.0].max.map_or(MEMBERS, |max| max as u64),
+            Domain::Role(id) => self.members[id.0],
             Domain::Enum(id) => self.model.enums[id.0].members.len() as u64,
             Domain::Range(..) => match self.automaton.variables[variable.0].ty.scalar {
                 Scalar::Int { lo, hi } => (i64::from(hi) - i64::from(lo)).unsigned_abs() + 1,

@@ -6,6 +6,7 @@ mod collected;
 mod device_key;
 mod draft;
 mod kinds;
+mod lonely;
 mod masked;
 mod modes;
 mod overlap;
@@ -16,6 +17,7 @@ mod role;
 mod setting;
 mod short;
 mod size;
+mod work;
 
 pub use draft::{Draft, Line, Texts};
 pub use setting::Setting;

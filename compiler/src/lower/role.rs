@@ -1,7 +1,7 @@
 //! Who works with whom: proposals from types, edges from geometry, members of roles from edges.
 
 use super::bind::Robot;
-use super::{Apart, Verdict};
+use super::{Apart, Verdict, work};
 use crate::connect::{self, Connected, Ground, Node, Proposal, Site};
 use crate::device::Heights;
 use crate::diagnostic::{Diagnostic, collect};
@@ -398,7 +398,7 @@ impl<'a> Line<'a> {
             members: self.members.clone(),
             reaches: self.model.relations.iter().map(table).collect(),
         };
-        if self.diagnostics.is_empty() {
+        if self.diagnostics.is_empty() && !work::is_too_much(&system, &mut self.diagnostics) {
             self.requirements(&system);
         }
         self.diagnostics.is_empty().then_some(system)

@@ -6,6 +6,8 @@ use crate::spec::ast;
 
 /// Of one kind in one place.
 const MOST: usize = 1000;
+/// Transitions of any state, in all states of an automaton together.
+const MOST_OF_ANY_STATE: usize = 50_000;
 
 impl Parser {
     pub(super) fn bounded(&mut self, file: &ast::File) {
@@ -14,7 +16,8 @@ impl Parser {
             names.chain(file.interfaces.iter().map(|i| &i.name)).chain(file.automata.iter().map(|a| &a.name));
         let names: Vec<&ast::Name> = names.collect();
         if let Some(first) = names.get(MOST) {
-            self.too_many(first, "a file", "enumerations, interfaces and automata", names.len());
+            let what = "enumerations, interfaces and automata";
+            self.too_many(first, "a file", what, [names.len(), MOST]);
         }
         for tree in &file.enums {
             self.bound(&tree.name, "members", tree.members.len());
@@ -44,6 +47,13 @@ impl Parser {
         ] {
             self.bound(&tree.name, what, count);
         }
+        let of_any_state: usize = tree.any.iter().map(|any| any.transitions.len()).sum();
+        let in_all_states = of_any_state.saturating_mul(tree.states.len());
+        if in_all_states > MOST_OF_ANY_STATE {
+            let who = format!("`{}`", tree.name.value);
+            let what = "transitions of any state, counted in each of its states";
+            self.too_many(&tree.name, &who, what, [in_all_states, MOST_OF_ANY_STATE]);
+        }
         for state in &tree.states {
             let outcomes = match &state.body {
                 ast::Body::Transitions(transitions) => {
@@ -61,12 +71,12 @@ impl Parser {
 
     fn bound(&mut self, name: &ast::Name, what: &str, count: usize) {
         if count > MOST {
-            self.too_many(name, &format!("`{}`", name.value), what, count);
+            self.too_many(name, &format!("`{}`", name.value), what, [count, MOST]);
         }
     }
 
-    fn too_many(&mut self, name: &ast::Name, who: &str, what: &str, count: usize) {
-        let diagnostic = Diagnostic::new("E0215", name.span, format!("{who} has more than {MOST} {what}"))
+    fn too_many(&mut self, name: &ast::Name, who: &str, what: &str, [count, most]: [usize; 2]) {
+        let diagnostic = Diagnostic::new("E0215", name.span, format!("{who} has more than {most} {what}"))
             .note(format!("there are {count}"))
             .help("divide it into several, or compute values in updates instead");
         collect(&mut self.diagnostics, diagnostic);

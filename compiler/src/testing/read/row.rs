@@ -92,6 +92,12 @@ impl Reader {
 
     fn expected(&mut self) -> Option<Expected> {
         let span = self.span();
+        let follows = &self.tokens[(self.at + 1).min(self.tokens.len() - 1)].0;
+        if *follows == Token::Sign("=") {
+            let path = self.path()?;
+            self.sign("=")?;
+            return Some(Expected::Value(path, self.literal()?));
+        }
         if self.maybe_word("fault") {
             let text = match self.peek() {
                 Token::Text(_) => self.text("")?.value.into(),
