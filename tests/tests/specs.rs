@@ -23,7 +23,7 @@ fn read(sources: &mut Sources, name: &str, text: &str) -> Result<Vec<Diagnostic>
     if !found.is_empty() {
         return Err(found);
     }
-    Ok(lint::warnings(checked?.model(), &trees, Panel::Line))
+    Ok(lint::warnings(&checked?, &trees, Panel::Line))
 }
 
 fn diagnostics(sources: &mut Sources, name: &str, text: &str) -> Vec<Diagnostic> {

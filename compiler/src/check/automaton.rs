@@ -60,14 +60,19 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
     context.names(tree);
     context.implements(tree);
     context.defines(tree);
+    // Requirements and properties say what holds, and may say what always does.
+    let remarks = context.checker.remarks.len();
     for require in &tree.requires {
         context.require(require);
     }
+    context.checker.remarks.truncate(remarks);
     if let Some(retain) = &tree.retain {
         context.retain(retain);
     }
     state::check(&mut context, tree);
+    let remarks = context.checker.remarks.len();
     context.properties(tree);
+    context.checker.remarks.truncate(remarks);
     context.bounded_work();
     let automaton = context.automaton;
     checker.model.automata.push(automaton);

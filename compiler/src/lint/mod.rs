@@ -10,17 +10,19 @@ mod overwritten;
 mod undriven;
 mod unused;
 
+use crate::check::Checked;
 use crate::diagnostic::{self, Diagnostic};
-use crate::ir::{Model, System};
+use crate::ir::System;
 use crate::layout::{Layout, Panel};
 use crate::source::FileId;
 use crate::spec::ast;
 use runtime_sim::line::Line;
 
-/// Warnings of all types of a model that has no errors, in the order of the text. `files` are the texts of the model,
+/// Warnings of all types that have no errors, in the order of the text. `files` are the texts of the types,
 /// `panel` is that of the layout.
-pub fn warnings(model: &Model, files: &[(FileId, ast::File)], panel: Panel) -> Vec<Diagnostic> {
-    let mut found = Vec::new();
+pub fn warnings(checked: &Checked, files: &[(FileId, ast::File)], panel: Panel) -> Vec<Diagnostic> {
+    let model = checked.model();
+    let mut found = checked.remarks().to_vec();
     for automaton in &model.automata {
         flow::check(automaton, &mut found);
         contradiction::check(automaton, &mut found);

@@ -140,6 +140,7 @@ impl Context<'_, '_> {
             );
             return None;
         }
+        self.remark_decided(operator, &a, &b, span);
         Some(binary(operator, Scalar::Bool, a, b))
     }
 
