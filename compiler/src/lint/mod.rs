@@ -6,6 +6,7 @@ mod failure;
 mod flow;
 mod implies;
 mod lanes;
+mod moving;
 mod overwritten;
 mod undriven;
 mod unused;
@@ -32,6 +33,7 @@ pub fn warnings(checked: &Checked, files: &[(FileId, ast::File)], panel: Panel) 
     }
     unused::check(model, files, &mut found);
     undriven::check(model, panel, &mut found);
+    moving::check(model, &mut found);
     diagnostic::sort(&mut found);
     found
 }
