@@ -1,6 +1,7 @@
 //! What is no error and hardly meant: warnings, from the texts of the types and from the layout.
 
 mod answer;
+mod beams;
 mod contradiction;
 mod failure;
 mod flow;
@@ -41,6 +42,7 @@ pub fn warnings(checked: &Checked, files: &[(FileId, ast::File)], panel: Panel) 
 /// Warnings of a layout that has no errors.
 pub fn of_layout(layout: &Layout, system: &System, line: &Line) -> Vec<Diagnostic> {
     let mut found = lanes::check(layout, system, line);
+    found.extend(beams::check(system, line));
     diagnostic::sort(&mut found);
     found
 }
