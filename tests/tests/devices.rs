@@ -243,8 +243,8 @@ fn what_does_not_fit_is_told_where_it_stands() {
     let device = "device thing {
         part one = lane { from: origin; length: 1.0; width: 0.4; speed: 0.3; };
         part other = lane { from: origin * frame(1.03, 0, 0, 0); length: 1.0; width: 0.4; speed: 0.3; };
-        out run: bool = one.run;
-        out run_second: bool = other.run;
+        out run: bool = one.run stop false;
+        out run_second: bool = other.run stop false;
     }
     automaton Thing on thing { initial -> Runs { run := true; run_second := true; } final state Runs; }";
     let texts = Texts { specs: vec![device.into()], ..Texts::of_layout(layout) };

@@ -23,7 +23,7 @@ fn read(sources: &mut Sources, name: &str, text: &str) -> Result<Vec<Diagnostic>
     if !found.is_empty() {
         return Err(found);
     }
-    Ok(lint::warnings(checked?.model(), &trees, Panel::Line))
+    Ok(lint::warnings(&checked?, &trees, Panel::Line))
 }
 
 fn diagnostics(sources: &mut Sources, name: &str, text: &str) -> Vec<Diagnostic> {
@@ -133,6 +133,35 @@ fn compare(
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     (cases, codes)
+}
+
+/// A cell of an interface and a port or a constant of the device: both places are shown.
+#[test]
+fn a_cell_with_a_name_of_the_device_is_shown_with_it() {
+    let text = "device thing { part b = button {}; in type: bool = b.on; constant size: real = 1.0; }
+interface Shown { shared type: bool; shared size: real; }
+automaton Thing on thing is Shown { initial state S { when false -> S {} } }";
+    let mut sources = Sources::default();
+    let found = diagnostics(&mut sources, "thing.aut", text);
+    let others = |found: &Diagnostic| -> Vec<String> {
+        let other = |(place, label): &(_, String)| {
+            let (line, column) = sources.position(*place);
+            format!("{line}:{column} {label}")
+        };
+        found.others.iter().map(other).collect()
+    };
+    let told: Vec<_> =
+        found.iter().map(|found| (found.code, found.message.as_str(), others(found))).collect();
+    let places = |cell: &str, device: &str| {
+        vec![format!("2:{cell} the cell of the interface"), format!("1:{device} the name of the device")]
+    };
+    assert_eq!(
+        told,
+        [
+            ("E0301", "`size` is already the name of a constant of the device", places("45", "67")),
+            ("E0301", "`type` is already the name of a port of the device", places("26", "39")),
+        ]
+    );
 }
 
 /// Parses and checks; that it ends is what is tested.

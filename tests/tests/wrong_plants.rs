@@ -70,6 +70,47 @@ fn two_ends_30_mm_apart() {
 }
 
 #[test]
+fn a_beam_for_a_word_that_no_kind_has() {
+    let beam = |word: &str| {
+        format!(
+            "part store = sink {{ of: belt; inset: 0; }};
+            part eye = beam {{ across: belt; at: 0.5; only: {word}; }};"
+        )
+    };
+    let warnings = |word: &str, kinds: &str| -> Vec<String> { told(&with_belt(1.0, &beam(word)), kinds) };
+    let steel = r#"{"name": "box", "height": 0.1, "size": [0.4, 0.3], "is": ["metal", "red"]}"#;
+    assert_eq!(warnings("metal", steel), [""; 0]);
+    assert_eq!(
+        warnings("mettal", steel),
+        ["W0203 5:18 no kind of the scenario is `mettal`: `eye` never sees anything \
+            [kinds of the scenario are metal, red]"]
+    );
+    assert_eq!(
+        warnings("metal", BOX),
+        ["W0203 5:18 no kind of the scenario is `metal`: `eye` never sees anything \
+            [no kind of the scenario has the key `is`]"]
+    );
+}
+
+#[test]
+fn numbers_beyond_the_limits_of_settings() {
+    let store = "part store = sink { of: belt; inset: 0; };";
+    let errors = |more: &str| told(&with_belt(1.0, &format!("{store} {more}")), BOX);
+    let chute = |length: &str, speed: &str| {
+        format!(
+            "part chute = lane {{ from: origin * frame(0, 2, 0, 0); length: {length}; width: 0.4; speed: {speed}; }};"
+        )
+    };
+    let wrong = |setting: &str| {
+        format!("E0704 4:57 the part chute: the setting {setting} is no number from 0.000000001 to 1000000")
+    };
+    assert_eq!(errors(&chute("1.0", "1e-9")), [""; 0]);
+    assert_eq!(errors(&chute("1e9", "0.2")), [wrong("length")]);
+    assert_eq!(errors(&chute("1.0", "1e300")), [wrong("speed")]);
+    assert_eq!(errors(&chute("1.0", "1e-300")), [wrong("speed")]);
+}
+
+#[test]
 fn a_chain_without_a_solution_anywhere() {
     let store = "part store = sink { of: belt; inset: 0; };";
     let arm = |rest: &str| {

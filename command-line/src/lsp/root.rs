@@ -190,7 +190,7 @@ fn folder(path: &Path) -> Found {
     let (trees, mut diagnostics) = trees(&sources, &files);
     if diagnostics.is_empty() {
         diagnostics = match check::check(&sources, &trees, kinds.as_deref()) {
-            Ok(checked) => lint::warnings(checked.model(), &trees, Panel::Line),
+            Ok(checked) => lint::warnings(&checked, &trees, Panel::Line),
             Err(found) => found,
         };
     }

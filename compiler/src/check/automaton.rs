@@ -61,14 +61,19 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
     context.names(tree);
     context.implements(tree);
     context.defines(tree);
+    // Requirements and properties say what holds, and may say what always does.
+    let remarks = context.checker.remarks.len();
     for require in &tree.requires {
         context.require(require);
     }
+    context.checker.remarks.truncate(remarks);
     if let Some(retain) = &tree.retain {
         context.retain(retain);
     }
     state::check(&mut context, tree);
+    let remarks = context.checker.remarks.len();
     context.properties(tree);
+    context.checker.remarks.truncate(remarks);
     context.bounded_work();
     let automaton = context.automaton;
     checker.model.automata.push(automaton);
@@ -157,18 +162,52 @@ impl Context<'_, '_> {
                 Some(Symbol::Cell(..)) => "a cell of an interface",
                 _ => "something else",
             };
-            self.report(
-                Diagnostic::new(
-                    "E0301",
-                    name.span,
-                    format!("`{}` is already the name of {meaning}", name.value),
-                )
-                .help("choose another name"),
+            let mut told = Diagnostic::new(
+                "E0301",
+                name.span,
+                format!("`{}` is already the name of {meaning}", name.value),
             );
+            if let Some(place) = self.place_of_cell(&symbol) {
+                told = told.other(place, "the cell of the interface");
+            }
+            let of_device = self.place_of_device_name(&name.value);
+            if let Some(place) = of_device {
+                told = told.other(place, "the name of the device");
+            }
+            let help = match symbol {
+                Symbol::Cell(..) if of_device.is_some() => {
+                    "rename one of the two: the automaton knows both by their names alone"
+                }
+                _ => "choose another name",
+            };
+            self.report(told.help(help));
             self.broken.insert(name.value.clone());
             return;
         }
         self.symbols.insert(name.value.clone(), symbol);
+    }
+
+    /// Where a cell of a declared interface stands.
+    fn place_of_cell(&self, symbol: &Symbol) -> Option<Span> {
+        let Symbol::Cell(id, cell) = symbol else { return None };
+        let interface = &self.checker.model.interfaces[id.0];
+        let declared = &self.checker.declarations.interfaces;
+        let cells = &declared.iter().find(|i| i.name.value == interface.name)?.cells;
+        cells.iter().find(|c| c.name.value == interface.cells[*cell].name).map(|c| c.name.span)
+    }
+
+    /// Where a port or a constant of the device is declared.
+    fn place_of_device_name(&self, name: &str) -> Option<Span> {
+        let device = &self.automaton.device;
+        match self.symbols.get(name)? {
+            Symbol::Port(port) => Some(device.ports[*port].place.unwrap_or(device.place)),
+            Symbol::DeviceConstant(_) => {
+                let declared =
+                    self.checker.declarations.devices.iter().find(|d| d.name.value == device.name)?;
+                declared.constants.iter().find(|c| c.name.value == name).map(|c| c.name.span)
+            }
+            _ => None,
+        }
     }
 
     fn names(&mut self, tree: &ast::Automaton) {

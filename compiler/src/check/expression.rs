@@ -1,6 +1,6 @@
 //! Types of expressions.
 
-mod arithmetic;
+pub(super) mod arithmetic;
 mod call;
 mod domain;
 

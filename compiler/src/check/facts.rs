@@ -4,7 +4,7 @@
 //! `slot[i] = Free` are facts too.
 
 use crate::ir::{Domain, Expr, ExprKind, Operator, Place, Scalar, Value};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
@@ -30,6 +30,15 @@ impl Interval {
     pub fn holds(self, value: f64) -> bool {
         self.lo <= value && value <= self.hi
     }
+
+    /// From the least of some bounds to the greatest; all, if one of them is none.
+    fn between<const N: usize>(bounds: [f64; N]) -> Self {
+        if bounds.iter().any(|bound| bound.is_nan()) {
+            return Self::ALL;
+        }
+        let [least, greatest] = [f64::min, f64::max].map(|f| bounds.into_iter().reduce(f));
+        least.zip(greatest).map_or(Self::ALL, |(lo, hi)| Self::new(lo, hi))
+    }
 }
 
 /// What a type says of its values.
@@ -45,9 +54,12 @@ pub fn of_type(ty: Scalar) -> Interval {
 #[derive(Clone, Debug, Default)]
 pub struct Facts {
     known: BTreeMap<String, Interval>,
+    /// What differs from 0, beyond what its interval says.
+    not_zero: BTreeSet<String>,
 }
 
 impl Facts {
+    /// Of a real, what it is unless it is NaN.
     pub fn of(&self, expr: &Expr) -> Interval {
         match &expr.kind {
             ExprKind::Constant(Value::Int(v)) => Interval::new(f64::from(*v), f64::from(*v)),
@@ -63,20 +75,72 @@ impl Facts {
             ExprKind::Binary(Operator::Multiply, a, b) if expr.ty == Scalar::Time => {
                 Interval::new(0.0, self.of(a).hi * self.of(b).hi)
             }
-            // Of reals one may be NaN, and then both say nothing.
-            ExprKind::Min(a, b) if expr.ty != Scalar::Real => {
-                let (a, b) = (self.of(a), self.of(b));
-                Interval::new(a.lo.min(b.lo), a.hi.min(b.hi))
+            // With NaN on the right, both are the left side.
+            ExprKind::Min(left, right) => {
+                let (a, b) = (self.of(left), self.of(right));
+                let hi = if may_be_nan(right) { a.hi } else { a.hi.min(b.hi) };
+                Interval::new(a.lo.min(b.lo), hi)
             }
-            ExprKind::Max(a, b) if expr.ty != Scalar::Real => {
-                let (a, b) = (self.of(a), self.of(b));
-                Interval::new(a.lo.max(b.lo), a.hi.max(b.hi))
+            ExprKind::Max(left, right) => {
+                let (a, b) = (self.of(left), self.of(right));
+                let lo = if may_be_nan(right) { a.lo } else { a.lo.max(b.lo) };
+                Interval::new(lo, a.hi.max(b.hi))
             }
-            _ => {
-                let declared = of_type(expr.ty);
-                key(expr).and_then(|k| self.known.get(&k)).map_or(declared, |known| declared.meet(*known))
-            }
+            _ if expr.ty == Scalar::Real => self.computed(expr).meet(self.learnt(expr)),
+            ExprKind::Read(_) | ExprKind::Variable(_) => of_type(expr.ty).meet(self.learnt(expr)),
+            _ => of_type(expr.ty),
         }
+    }
+
+    fn learnt(&self, expr: &Expr) -> Interval {
+        key(expr).and_then(|key| self.known.get(&key).copied()).unwrap_or(Interval::ALL)
+    }
+
+    /// What follows of a real from its operands. Rounding keeps the order, so bounds are those of rounded bounds.
+    fn computed(&self, expr: &Expr) -> Interval {
+        match &expr.kind {
+            ExprKind::Negate(inner) => {
+                let inner = self.of(inner);
+                Interval::new(-inner.hi, -inner.lo)
+            }
+            ExprKind::Absolute(inner) => {
+                let Interval { lo, hi } = self.of(inner);
+                let least = if lo <= 0.0 && hi >= 0.0 { 0.0 } else { lo.abs().min(hi.abs()) };
+                Interval::new(least, lo.abs().max(hi.abs()))
+            }
+            ExprKind::Binary(Operator::Add, a, b) => {
+                let (a, b) = (self.of(a), self.of(b));
+                Interval::between([a.lo + b.lo, a.hi + b.hi])
+            }
+            ExprKind::Binary(Operator::Subtract, a, b) => {
+                let (a, b) = (self.of(a), self.of(b));
+                Interval::between([a.lo - b.hi, a.hi - b.lo])
+            }
+            ExprKind::Binary(Operator::Multiply, a, b) => {
+                let (a, b) = (self.of(a), self.of(b));
+                Interval::between([a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi])
+            }
+            _ => Interval::ALL,
+        }
+    }
+
+    /// Whether a value is proved to differ from 0; one that is NaN does.
+    pub fn differs_from_zero(&self, expr: &Expr) -> bool {
+        let known = self.of(expr).meet(self.learnt(expr));
+        if !known.holds(0.0) {
+            return true;
+        }
+        // A guard that says otherwise never holds.
+        if known == Interval::new(0.0, 0.0) {
+            return false;
+        }
+        key(expr).is_some_and(|key| self.not_zero.contains(&key))
+            || match &expr.kind {
+                ExprKind::ToReal(inner) | ExprKind::Negate(inner) | ExprKind::Absolute(inner) => {
+                    self.differs_from_zero(inner)
+                }
+                _ => false,
+            }
     }
 
     /// Takes in that a condition holds, or does not.
@@ -92,6 +156,11 @@ impl Facts {
                 self.learn(b, false);
             }
             ExprKind::Binary(operator, a, b) => {
+                let differ = if truth { Operator::NotEqual } else { Operator::Equal };
+                if *operator == differ {
+                    self.differ(a, b);
+                    self.differ(b, a);
+                }
                 if let Some(operator) = if truth { Some(*operator) } else { opposite(*operator, a.ty) } {
                     self.compare(operator, a, b);
                 }
@@ -130,6 +199,12 @@ impl Facts {
         self.narrow(b, for_right);
     }
 
+    fn differ(&mut self, expr: &Expr, from: &Expr) {
+        if self.of(from) == Interval::new(0.0, 0.0) {
+            self.not_zero.extend(key(expr));
+        }
+    }
+
     fn narrow(&mut self, expr: &Expr, interval: Interval) {
         if let Some(key) = key(expr) {
             let known = self.known.entry(key).or_insert(Interval::ALL);
@@ -141,16 +216,19 @@ impl Facts {
     pub fn write(&mut self, place: &Place, ty: Scalar, value: Interval) {
         self.forget(place);
         let expr = Expr { ty, kind: ExprKind::Read(place.clone()) };
-        // After `a[a[0]] := v` the place `a[a[0]]` may be another one.
-        if key(&expr).is_some_and(|key| key.matches(&marker(place)).count() == 1) {
+        // After `a[a[0]] := v` the place `a[a[0]]` may be another one, also if a definition is `a[0]`.
+        let is_one = |key: String| key.matches(&marker(place)).count() == 1 && !key.contains(DEFINITION);
+        if key(&expr).is_some_and(is_one) {
             self.narrow(&expr, value);
         }
     }
 
-    /// Forgets what was known of a variable.
+    /// Forgets what was known of a variable, and of all definitions: each may read it.
     pub fn forget(&mut self, place: &Place) {
         let written = marker(place);
-        self.known.retain(|key, _| !key.contains(&written));
+        let stays = |key: &String| !key.contains(&written) && !key.contains(DEFINITION);
+        self.known.retain(|key, _| stays(key));
+        self.not_zero.retain(stays);
     }
 }
 
@@ -170,11 +248,36 @@ fn opposite(operator: Operator, ty: Scalar) -> Option<Operator> {
     }
 }
 
-/// A text that is equal for expressions that read the same value; `None` if the expression is no reading.
-fn key(expr: &Expr) -> Option<String> {
+/// What the keys of definitions begin with, and no other key contains.
+const DEFINITION: char = 'D';
+
+/// A text that is equal only for expressions of the same value: of what is read, and of numbers computed from it.
+pub fn key(expr: &Expr) -> Option<String> {
+    let of_two = |sign: &str, a: &Expr, b: &Expr| Some(format!("({sign}{}{})", key(a)?, key(b)?));
     match &expr.kind {
         ExprKind::Read(place) => place_key(place),
         ExprKind::Variable(id) => Some(format!("v{};", id.0)),
+        ExprKind::Define(define) => Some(format!("{DEFINITION}{define};")),
+        ExprKind::Members(role) => Some(format!("m{};", role.0)),
+        ExprKind::Constant(Value::Int(v)) => Some(format!("#{v};")),
+        ExprKind::Constant(Value::Real(v)) => Some(format!("#{};", v.to_bits())),
+        ExprKind::ToReal(inner) => Some(format!("(r{})", key(inner)?)),
+        ExprKind::Negate(inner) => Some(format!("(-{})", key(inner)?)),
+        ExprKind::Absolute(inner) => Some(format!("(|{})", key(inner)?)),
+        ExprKind::Coordinate(inner, number) => Some(format!("(.{number}{})", key(inner)?)),
+        ExprKind::Min(a, b) => of_two("<", a, b),
+        ExprKind::Max(a, b) => of_two(">", a, b),
+        ExprKind::Binary(operator, a, b) => {
+            let sign = match operator {
+                Operator::Add => "+",
+                Operator::Subtract => "_",
+                Operator::Multiply => "*",
+                Operator::Divide => "/",
+                Operator::Modulo => "%",
+                _ => return None,
+            };
+            of_two(sign, a, b)
+        }
         _ => None,
     }
 }
@@ -212,6 +315,16 @@ fn marker(place: &Place) -> String {
         Place::Parameter { parameter, .. } => format!("q{parameter};"),
         Place::Shown { interface, parameter, .. } => format!("s{}.{parameter};", interface.0),
     }
+}
+
+/// What is stored is finite.
+fn may_be_nan(expr: &Expr) -> bool {
+    let is_finite = match &expr.kind {
+        ExprKind::Constant(_) | ExprKind::ToReal(_) => true,
+        ExprKind::Read(place) => !matches!(place, Place::Port { .. }),
+        _ => false,
+    };
+    expr.ty == Scalar::Real && !is_finite
 }
 
 /// Whether a stored value could be infinite or not a number.

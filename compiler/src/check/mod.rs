@@ -2,6 +2,7 @@
 
 mod automaton;
 mod context;
+mod decided;
 mod declared;
 mod devices;
 mod expression;
@@ -38,6 +39,7 @@ use std::sync::Arc;
 pub struct Checked {
     model: ir::Model,
     lonely: Vec<Diagnostic>,
+    remarks: Vec<Diagnostic>,
 }
 
 impl Checked {
@@ -54,6 +56,11 @@ impl Checked {
     pub fn lonely(&self) -> &[Diagnostic] {
         &self.lonely
     }
+
+    /// Warnings that the bounds of values give.
+    pub fn remarks(&self) -> &[Diagnostic] {
+        &self.remarks
+    }
 }
 
 /// Checks all types of the files. A type of a later file replaces one of the same name of an earlier file.
@@ -66,7 +73,7 @@ pub fn check(
 ) -> Result<Checked, Vec<Diagnostic>> {
     let mut checker = checked(sources, files, kinds, None);
     if checker.diagnostics.is_empty() && !checker.has_taken {
-        Ok(Checked { model: checker.model, lonely: checker.lonely })
+        Ok(Checked { model: checker.model, lonely: checker.lonely, remarks: checker.remarks })
     } else {
         replaced::explain(sources, &checker.declarations.replaced, &mut checker.diagnostics);
         crate::diagnostic::sort(&mut checker.diagnostics);
@@ -95,6 +102,7 @@ fn checked<'a>(
         lacks_kinds: kinds.is_none(),
         has_taken: false,
         lonely: Vec::new(),
+        remarks: Vec::new(),
         broken: BTreeSet::new(),
         devices: Vec::new(),
         refused: Vec::new(),
@@ -226,6 +234,7 @@ struct Checker<'a> {
     /// A name was taken for a kind, so the model is not whole.
     has_taken: bool,
     lonely: Vec<Diagnostic>,
+    remarks: Vec<Diagnostic>,
     /// Members of interfaces whose declarations have errors; something stands for them in the model.
     broken: BTreeSet<(ir::InterfaceId, String)>,
     /// Devices by name, in the order of their declarations; none for one with errors.

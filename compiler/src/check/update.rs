@@ -153,9 +153,11 @@ impl Context<'_, '_> {
         match ty {
             Scalar::Int { .. } | Scalar::Time => {
                 let bounds = facts::of_type(ty);
-                if self.facts.of(value).is_within(bounds) {
+                let known = self.facts.of(value);
+                if known.is_within(bounds) {
                     return None;
                 }
+                self.remark_misfit(&name, known, bounds, span);
                 let text = format!("`{name}` would leave {}..{}", bounds.lo, bounds.hi);
                 Some(self.fault(FaultKind::OutOfBounds, span, text))
             }

@@ -63,6 +63,7 @@ pub fn names() -> Vec<String> {
 fn port(name: &str, direction: Direction, ty: PortType, meaning: &str, stop: Stop) -> Port {
     Port {
         name: name.into(),
+        place: None,
         direction,
         ty,
         extent: Extent::One,

@@ -74,6 +74,8 @@ pub enum Form {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Port {
     pub name: String,
+    /// Where it is declared; none of one that every device with commands has.
+    pub place: Option<Span>,
     pub direction: Direction,
     pub ty: PortType,
     pub extent: Extent,

@@ -327,6 +327,7 @@ fn size(port: &Port) -> Size {
 fn declared(port: &ast::Port, ty: PortType, extent: Extent, stop: Stop) -> Port {
     Port {
         name: port.name.value.clone(),
+        place: Some(port.name.span),
         direction: port.direction,
         ty,
         extent,

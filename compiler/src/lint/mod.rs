@@ -1,26 +1,30 @@
 //! What is no error and hardly meant: warnings, from the texts of the types and from the layout.
 
 mod answer;
+mod beams;
 mod contradiction;
 mod failure;
 mod flow;
 mod implies;
 mod lanes;
+mod moving;
 mod overwritten;
 mod undriven;
 mod unused;
 
+use crate::check::Checked;
 use crate::diagnostic::{self, Diagnostic};
-use crate::ir::{Model, System};
+use crate::ir::System;
 use crate::layout::{Layout, Panel};
 use crate::source::FileId;
 use crate::spec::ast;
 use runtime_sim::line::Line;
 
-/// Warnings of all types of a model that has no errors, in the order of the text. `files` are the texts of the model,
+/// Warnings of all types that have no errors, in the order of the text. `files` are the texts of the types,
 /// `panel` is that of the layout.
-pub fn warnings(model: &Model, files: &[(FileId, ast::File)], panel: Panel) -> Vec<Diagnostic> {
-    let mut found = Vec::new();
+pub fn warnings(checked: &Checked, files: &[(FileId, ast::File)], panel: Panel) -> Vec<Diagnostic> {
+    let model = checked.model();
+    let mut found = checked.remarks().to_vec();
     for automaton in &model.automata {
         flow::check(automaton, &mut found);
         contradiction::check(automaton, &mut found);
@@ -30,6 +34,7 @@ pub fn warnings(model: &Model, files: &[(FileId, ast::File)], panel: Panel) -> V
     }
     unused::check(model, files, &mut found);
     undriven::check(model, panel, &mut found);
+    moving::check(model, &mut found);
     diagnostic::sort(&mut found);
     found
 }
@@ -37,6 +42,7 @@ pub fn warnings(model: &Model, files: &[(FileId, ast::File)], panel: Panel) -> V
 /// Warnings of a layout that has no errors.
 pub fn of_layout(layout: &Layout, system: &System, line: &Line) -> Vec<Diagnostic> {
     let mut found = lanes::check(layout, system, line);
+    found.extend(beams::check(system, line));
     diagnostic::sort(&mut found);
     found
 }

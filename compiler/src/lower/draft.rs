@@ -90,7 +90,7 @@ impl Draft {
         let name = layout.as_ref().map(|l| l.name.clone());
         let mut draft = Self { diagnostics, warnings: Vec::new(), name, orders, items, parts: None };
         if let (Some(layout), Some(checked), Some(scenario)) = (layout, checked, scenario) {
-            draft.warnings = lint::warnings(checked.model(), &files, layout.panel);
+            draft.warnings = lint::warnings(&checked, &files, layout.panel);
             let model = draft.bind(sources, &layout, &files, &checked, &scenario, settings);
             draft.parts = model.map(|model| {
                 let makes = model.automata.iter().any(|a| a.device.has("orders") || a.device.has("source"));

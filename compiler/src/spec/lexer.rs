@@ -2,6 +2,8 @@
 
 mod foreign;
 
+pub use foreign::CAPITALS;
+
 use crate::diagnostic::{Diagnostic, MOST};
 use crate::plain;
 use crate::source::{FileId, Span};

@@ -13,13 +13,18 @@ mod state;
 use crate::diagnostic::{Diagnostic, collect, suggestion};
 use crate::source::{FileId, Span, Spanned};
 use crate::spec::ast;
-use crate::spec::lexer::{self, Token};
+use crate::spec::lexer::{self, CAPITALS, Token};
 
 /// Words that cannot be names, since an expression or a clause begins with them.
 pub const RESERVED: &[&str] = &[
     "after", "and", "count", "done", "else", "exists", "failed", "false", "first", "forall", "in", "least",
     "mod", "nearest", "not", "or", "reaches", "state", "sum", "true", "until", "wait", "when", "with",
 ];
+
+/// Whether a name of the scenario has another meaning where an automaton writes it.
+pub fn is_word(name: &str) -> bool {
+    RESERVED.contains(&name) || name == "self" || CAPITALS.iter().any(|(capitals, _)| *capitals == name)
+}
 
 /// Nesting of expressions beyond which a text is refused.
 const DEEPEST: usize = 64;

@@ -59,6 +59,8 @@ pub const VERTICAL: &str = "z";
 
 /// No number is farther from 0.
 const FARTHEST: f64 = 1e6;
+/// No number that is over 0 is less.
+const LEAST: f64 = 1e-9;
 /// No time is longer, ms.
 const LONGEST: f64 = 1e9;
 
@@ -101,11 +103,12 @@ impl Settings {
     }
 
     pub fn number(&self, name: &str) -> Result<f64, String> {
-        self.read(name, "number within 1000 km", number)
+        self.read(name, "number from -1000000 to 1000000", number)
     }
 
     pub fn positive(&self, name: &str) -> Result<f64, String> {
-        self.read(name, "number over 0", |value| number(value).filter(|n| *n > 0.0))
+        let what = "number from 0.000000001 to 1000000";
+        self.read(name, what, |value| number(value).filter(|n| *n >= LEAST))
     }
 
     /// Whole milliseconds.

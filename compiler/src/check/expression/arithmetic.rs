@@ -2,11 +2,12 @@
 
 use super::{binary, constant, to_real, unit_help};
 use crate::check::context::Context;
-use crate::check::facts::Interval;
+use crate::check::facts::{self, Interval};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{self, Expr, ExprKind, Place, Scalar, Value};
 use crate::source::Span;
 use crate::spec::ast::{self, Operator};
+use crate::spec::written;
 
 impl Context<'_, '_> {
     pub(super) fn negate(&mut self, tree: &ast::Expr, expected: Option<Scalar>, span: Span) -> Option<Expr> {
@@ -139,6 +140,7 @@ impl Context<'_, '_> {
             );
             return None;
         }
+        self.remark_decided(operator, &a, &b, span);
         Some(binary(operator, Scalar::Bool, a, b))
     }
 
@@ -244,13 +246,30 @@ impl Context<'_, '_> {
     }
 
     fn prove_divisor(&mut self, divisor: &Expr, span: Span) -> Option<()> {
-        if self.facts.of(divisor).holds(0.0) {
-            self.report(Diagnostic::new("E0318", span, "this divisor is not proved to differ from 0").help(
-                "compare it in the guard of this transition, such as `x > 0`, or declare bounds without 0",
-            ));
-            return None;
+        if self.facts.differs_from_zero(divisor) {
+            return Some(());
         }
-        Some(())
+        let text = written::on_one_line(self.checker.sources.text(span));
+        let is_long = text.len() > LONGEST_IN_HELP;
+        let help = match (&divisor.kind, facts::key(divisor)) {
+            (ExprKind::Constant(_), _) => "divide by another number".to_string(),
+            (ExprKind::Read(_), Some(_)) if matches!(divisor.ty, Scalar::Int { .. }) => {
+                format!("compare it in the guard of this transition, such as `{text} > 0` or `{text} <> 0`, or declare bounds without 0")
+            }
+            (_, Some(_)) if !is_long => {
+                format!("compare it as it stands here in the guard of this transition, such as `{text} > 0` or `{text} <> 0`")
+            }
+            _ => "name it with `define`, divide by the name, and compare the name in the guard of this transition, such as `name > 0`".to_string(),
+        };
+        let found = Diagnostic::new("E0318", span, "this divisor is not proved to differ from 0");
+        let found = match &divisor.kind {
+            ExprKind::Binary(Operator::Multiply | Operator::Divide, ..) if divisor.ty == Scalar::Real => {
+                found.note("it may be 0 if its operands are not: a number that is too small is rounded to 0")
+            }
+            _ => found,
+        };
+        self.report(found.help(help));
+        None
     }
 
     fn whole_arithmetic(
@@ -265,42 +284,49 @@ impl Context<'_, '_> {
         if matches!(operator, Operator::Divide | Operator::Modulo) {
             self.prove_divisor(&b, divisor)?;
         }
-        let corners = |f: fn(f64, f64) -> f64| {
-            let all = [f(x.lo, y.lo), f(x.lo, y.hi), f(x.hi, y.lo), f(x.hi, y.hi)];
-            all.iter().fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), |i, v| {
-                Interval::new(i.lo.min(*v), i.hi.max(*v))
-            })
-        };
-        let result = match operator {
-            Operator::Add => corners(|a, b| a + b),
-            Operator::Subtract => corners(|a, b| a - b),
-            Operator::Multiply => corners(|a, b| a * b),
-            Operator::Divide => quotient(x, y),
-            _ => {
-                // Not every machine finds the remainder of a quotient that does not fit.
-                if x.holds(f64::from(i32::MIN)) && y.holds(-1.0) {
-                    self.report(
-                        Diagnostic::new(
-                            "E0316",
-                            span,
-                            "the quotient of this remainder is not proved to fit into 32 bits",
-                        )
-                        .label("the left side may be -2147483648, and the right side -1")
-                        .help("declare the variables with narrower bounds"),
-                    );
-                    return None;
-                }
-                remainder(x, y)
-            }
-        };
+        // Not every machine finds the remainder of a quotient that does not fit.
+        if operator == Operator::Modulo && x.holds(f64::from(i32::MIN)) && y.holds(-1.0) {
+            self.report(
+                Diagnostic::new(
+                    "E0316",
+                    span,
+                    "the quotient of this remainder is not proved to fit into 32 bits",
+                )
+                .label("the left side may be -2147483648, and the right side -1")
+                .help("declare the variables with narrower bounds"),
+            );
+            return None;
+        }
+        let result = whole(operator, x, y);
         let ty = self.fitting(result.lo as i64, result.hi as i64, span)?;
         Some(binary(operator, ty, a, b))
     }
 }
 
-/// The bounds of a quotient, which is rounded towards 0. The divisor is not 0.
+/// The bounds of what an operator makes of two whole numbers; of a divisor that is not 0.
+pub(in crate::check) fn whole(operator: Operator, x: Interval, y: Interval) -> Interval {
+    let corners = |f: fn(f64, f64) -> f64| {
+        let all = [f(x.lo, y.lo), f(x.lo, y.hi), f(x.hi, y.lo), f(x.hi, y.hi)];
+        all.iter().fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), |i, v| {
+            Interval::new(i.lo.min(*v), i.hi.max(*v))
+        })
+    };
+    match operator {
+        Operator::Add => corners(|a, b| a + b),
+        Operator::Subtract => corners(|a, b| a - b),
+        Operator::Multiply => corners(|a, b| a * b),
+        Operator::Divide => quotient(x, y),
+        _ => remainder(x, y),
+    }
+}
+
+/// A longer expression is not repeated in what helps.
+const LONGEST_IN_HELP: usize = 60;
+
+/// The bounds of a quotient, which is rounded towards 0. The divisor is not 0, but its bounds may be on both sides of it.
 fn quotient(x: Interval, y: Interval) -> Interval {
-    let divisors = [y.lo, y.hi].into_iter().filter(|divisor| *divisor != 0.0);
+    let beside_zero = [-1.0, 1.0].into_iter().filter(|divisor| y.holds(*divisor));
+    let divisors = [y.lo, y.hi].into_iter().chain(beside_zero).filter(|divisor| *divisor != 0.0);
     let corners = divisors.flat_map(|divisor| [x.lo / divisor, x.hi / divisor]).map(f64::trunc);
     corners
         .fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), |i, v| Interval::new(i.lo.min(v), i.hi.max(v)))
@@ -327,8 +353,8 @@ mod tests {
         let intervals =
             || (-7..=7).flat_map(|lo| (lo..=7).map(move |hi| Interval::new(lo.into(), hi.into())));
         for x in intervals() {
-            for y in intervals().filter(|y| !y.holds(0.0)) {
-                let pairs = || of(x).flat_map(|a| of(y).map(move |b| (a, b)));
+            for y in intervals().filter(|y| *y != Interval::new(0.0, 0.0)) {
+                let pairs = || of(x).flat_map(|a| of(y).filter(|b| *b != 0).map(move |b| (a, b)));
                 let all: Vec<i32> = pairs().map(|(a, b)| a / b).collect();
                 let found = quotient(x, y);
                 assert_eq!(Some(&(found.lo as i32)), all.iter().min(), "{x:?} / {y:?}");

@@ -89,6 +89,7 @@ impl Context<'_, '_> {
             ast::Domain::Range(low, high) => {
                 let (low_expr, high_expr) = (self.whole(low), self.whole(high));
                 let (low_expr, high_expr) = (low_expr?, high_expr?);
+                self.remark_empty(&low_expr, &high_expr, low.span.to(high.span));
                 let domain = Domain::Range(low_expr, high_expr);
                 let known = facts::of_domain(&domain, &self.facts)?;
                 let size = (known.hi - known.lo + 1.0).max(0.0);

@@ -5,6 +5,7 @@ use crate::layout::decode::{Decoder, find, instead, listing};
 use crate::layout::json::Json;
 use crate::scenario::Kind;
 use crate::source::{Span, Spanned};
+use crate::spec::parser::is_word;
 use std::ops::RangeInclusive;
 
 /// Of height, length and width of a part, m.
@@ -59,8 +60,10 @@ impl Decoder {
         self.unknown_keys(members, &["name", "height", "grasp", "size", "is", "mass"], "a kind");
         let name = self.required(members, "name", json.span, "a kind");
         let name = name.and_then(|j| self.text(j, "name"));
-        if let Some(name) = &name {
-            self.identifier(name, "a kind");
+        if let Some(name) = &name
+            && self.identifier(name, "a kind")
+        {
+            self.no_word(name, "a kind");
         }
         let height = self.required(members, "height", json.span, "a kind");
         let height = height.and_then(|j| self.number_in(j, "height", LENGTHS));
@@ -69,11 +72,25 @@ impl Decoder {
         let mass = find(members, "mass").and_then(|j| self.number_in(j, "mass", MASSES)).unwrap_or(MASS);
         let is = find(members, "is").and_then(|j| self.texts(j, "is")).unwrap_or_default();
         is.iter().for_each(|word| {
-            self.identifier(word, "what a kind is");
+            if self.identifier(word, "what a kind is") {
+                self.no_word(word, "what a kind is");
+            }
         });
         let height = height.unwrap_or_default();
         let (grasp, size) = (grasp.unwrap_or(height), size.unwrap_or(SIZE));
         Some(Kind { name: name?, height, grasp, size, is, mass })
+    }
+
+    /// Automata and devices write the names of kinds.
+    fn no_word(&mut self, name: &Spanned<String>, what: &str) {
+        if is_word(&name.value) {
+            let message = format!("\"{}\" cannot be the name of {what}", name.value);
+            self.report(
+                Diagnostic::new("E0120", name.span, message)
+                    .note("it is a word of the language: an automaton would not mean the kind by it")
+                    .help(format!("write for example \"{}_1\"", name.value.to_ascii_lowercase())),
+            );
+        }
     }
 
     /// Not over the upper side of the part, if its height is known.

@@ -1,0 +1,77 @@
+//! Outputs that move something while the line is stopped, and moving machines without a body.
+
+use crate::device::Device;
+use crate::diagnostic::Diagnostic;
+use crate::ir::{Automaton, Model};
+use runtime_sim::device::{Direction, PortType, Stop};
+use runtime_sim::part::Schema;
+use runtime_sim::wiring::Drives;
+use std::collections::BTreeSet;
+
+/// Parts that move, fill or work while a level is on.
+const WORK: [&str; 4] = ["lane", "process", "source", "tank"];
+const CYLINDER: &str = "cylinder";
+
+/// Parts that move a machine as a whole or in its joints.
+const CARRIERS: [&str; 3] = ["chain", "route", "track"];
+
+pub fn check(model: &Model, found: &mut Vec<Diagnostic>) {
+    let mut devices = BTreeSet::new();
+    for automaton in &model.automata {
+        found.extend(unstopped(automaton));
+        if devices.insert(&automaton.device.name) {
+            found.extend(bodiless(&automaton.device));
+        }
+    }
+}
+
+fn unstopped(automaton: &Automaton) -> Vec<Diagnostic> {
+    let device = &automaton.device;
+    let outputs = device.ports.iter().enumerate().filter(|(_, port)| port.direction == Direction::Output);
+    let levels = outputs.zip(&device.wiring.outputs).filter_map(|(port, output)| match output.drives {
+        Drives::Level { part, .. } => Some((port, part)),
+        _ => None,
+    });
+    let levels: Vec<_> = levels.collect();
+    let primitive = |wanted: usize| device.parts().find(|(part, _, _)| *part == wanted);
+    let mut found = Vec::new();
+    for ((number, port), part) in &levels {
+        let Some((_, name, Schema { name: kind, .. })) = primitive(*part) else { continue };
+        let is_retained = automaton.retained.ports.contains(number);
+        let valves = levels.iter().filter(|(_, other)| other == part).count();
+        let moves = WORK.contains(kind) || *kind == CYLINDER && valves == 1 && is_retained;
+        let Some(place) = port.place.filter(|_| moves && port.stop == Stop::Hold) else { continue };
+        let value = if port.ty == PortType::Bool { "false" } else { "0" };
+        let message = format!("`{}` keeps its value while the line is stopped", port.name);
+        let mut told = Diagnostic::new("W0113", place, message)
+            .note(format!("it drives the {kind} `{name}`: what it moves goes on"));
+        if is_retained {
+            let by = format!(
+                "`{}` retains it: after a loss of power it acts before the line is started",
+                automaton.name
+            );
+            told = told.note(by);
+        }
+        found.push(told.help(format!("write `stop {value}` at its end")));
+    }
+    found
+}
+
+fn bodiless(device: &Device) -> Option<Diagnostic> {
+    if device.parts_called("body").any(|(part, _)| device.sets(part, "on")) {
+        return None;
+    }
+    let (part, name, schema) = device.parts().find(|(_, _, schema)| CARRIERS.contains(&schema.name))?;
+    let message = format!("no body moves with the {} `{name}` of `{}`", schema.name, device.name);
+    let on = match schema.name {
+        "chain" => "one of its axes or frames",
+        _ => name,
+    };
+    Some(
+        Diagnostic::new("W0114", device.place_of(part)?, message)
+            .note("what has no body is not checked for contact with other machines")
+            .help(format!(
+                "add one, on {on}: `part hull = body {{ on: ...; low: point(...); high: point(...); }};`"
+            )),
+    )
+}
