@@ -268,7 +268,8 @@ fn are_free(options: &CommissionOptions, built: &Built, built_files: &Files) -> 
 fn text(report: &Value, wall: f64, output: &Output) -> String {
     let number = |v: &Value| v.as_f64().unwrap_or(0.0);
     let mut out = format!("{}\n\n", report["reason"].as_str().unwrap_or("").replace("; ", "\n  "));
-    if let Some(note) = report["note"].as_str() {
+    let notes = report["notes"].as_array().map_or(&[][..], Vec::as_slice);
+    for note in notes.iter().chain([&report["note"]]).filter_map(Value::as_str) {
         out += &format!("note: {note}\n\n");
     }
     let is_ordered = report["orders"] != 0;

@@ -16,6 +16,8 @@ pub struct Result {
     pub title: String,
     pub engine: TestEngine,
     pub outcome: Outcome,
+    /// What the run of a line did not come to.
+    pub notes: Vec<String>,
 }
 
 pub enum Outcome {
@@ -107,7 +109,7 @@ fn say_file(options: &TestOptions, file: &OfFile) {
     if !options.quiet {
         say!("{}", file.name);
     }
-    for Result { title, engine, outcome } in &file.results {
+    for Result { title, engine, outcome, notes } in &file.results {
         let on = engine.suffix();
         match outcome {
             Outcome::Passed if options.quiet => {}
@@ -122,6 +124,9 @@ fn say_file(options: &TestOptions, file: &OfFile) {
                     say_part!("{}", failure.text());
                 }
             }
+        }
+        if !options.quiet {
+            notes.iter().for_each(|note| say!("    note: {note}"));
         }
     }
 }

@@ -20,6 +20,10 @@ const fn part(
     MachinePart { robot, part, primitive, numbers }
 }
 
+const fn panel(part: &'static str, number: usize, operated: Operated, ty: PortType) -> Panel<'static> {
+    Panel { robot: "desk", part, numbers: [11, number], operated, ty, commands: None }
+}
+
 const LINE: Line = Line {
     stations: &[("as1", 7), ("as2", 8), ("as3", 9), ("as4", 10)],
     belts: &[("conveyor_belt", 0)],
@@ -76,8 +80,13 @@ const LINE: Line = Line {
         part("desk", "cycle", [11, 2], &process::SCHEMA),
     ],
     panels: &[
-        Panel { robot: "desk", part: "start", numbers: [11, 0], operated: Operated::Press },
-        Panel { robot: "desk", part: "speed", numbers: [11, 1], operated: Operated::SetNumber },
+        panel("start", 0, Operated::Press, PortType::Bool),
+        panel("speed", 1, Operated::SetNumber, PortType::Real),
+        panel("panel_mode", 3, Operated::SetNumber, PortType::Int { lo: 0, hi: 2 }),
+        Panel {
+            commands: Some(&[]),
+            ..panel("panel_verb", 4, Operated::SetNumber, PortType::Int { lo: 0, hi: 32767 })
+        },
     ],
     made: &[],
 };

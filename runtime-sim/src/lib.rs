@@ -28,6 +28,7 @@ pub mod machine;
 pub mod memory;
 pub mod monitor;
 pub mod motion;
+mod notes;
 pub mod part;
 pub mod path;
 mod planner;

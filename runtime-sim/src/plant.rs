@@ -386,6 +386,21 @@ impl Plant {
         self.machines.get(machine).map_or(Trajectory::Rests, |machine| machine.trajectory(self.now_ms()))
     }
 
+    /// How many commands a machine has been given.
+    pub(crate) fn commands(&self, machine: usize) -> u32 {
+        self.machines.get(machine).map_or(0, Working::commands)
+    }
+
+    /// How many items the grippers of a machine have attached.
+    pub(crate) fn picks(&self, machine: usize) -> u32 {
+        self.machines.get(machine).map_or(0, Working::picks)
+    }
+
+    /// How many cycles of a process have begun.
+    pub(crate) fn cycles(&self, machine: usize, part: usize) -> u32 {
+        self.machines.get(machine).map_or(0, |machine| machine.cycles(part))
+    }
+
     /// The scan that starts.
     pub fn scan(&self) -> u64 {
         self.scan

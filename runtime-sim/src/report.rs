@@ -8,6 +8,7 @@ use crate::json::Json;
 use crate::line::{Goal, Line};
 use crate::machine::Machine;
 use crate::monitor;
+use crate::notes;
 use crate::plant::Plant;
 use crate::run;
 use crate::shortage::point_text;
@@ -19,6 +20,8 @@ pub struct Report {
     pub finished: bool,
     /// Why the run ended, and what is missing if it did not finish.
     pub reason: String,
+    /// What the scenario asks that did not happen, and that the line stands without a fault.
+    pub notes: Vec<String>,
     /// Code and machine of the fault that ended the run.
     pub fault: Option<(i32, String)>,
     pub scan_ms: u32,
@@ -94,6 +97,8 @@ pub struct ItemReport {
 pub(crate) struct Outcome {
     pub finished: bool,
     pub reason: String,
+    /// The scan since which the line waits for an edge of `start`.
+    pub stands_since: Option<u64>,
     /// Code and machine of the fault that ended the run.
     pub fault: Option<(i32, Option<usize>)>,
     pub scans: u64,
@@ -140,9 +145,12 @@ impl Report {
             carrier: carrier_text(line, item.carrier),
             place: plant.place(id).map_or_else(|| "-".into(), point_text),
         });
+        let stands = outcome.stands_since.map(|scan| stands_text(seconds(scan)));
+        let notes = stands.into_iter().chain(notes::not_reached(line, plant, outcome.scans));
         Self {
             finished: outcome.finished,
             reason: outcome.reason,
+            notes: notes.collect(),
             fault: outcome.fault.map(|(code, machine)| {
                 (code, machine.map_or_else(String::new, |machine| line.machines[machine].name.clone()))
             }),
@@ -188,6 +196,9 @@ impl Report {
         Json::object(|json| {
             json.put_truth("finished", self.finished);
             json.put_text("reason", &self.reason);
+            if !self.notes.is_empty() {
+                json.put_texts("notes", &self.notes);
+            }
             if let Some((code, robot)) = &self.fault {
                 json.put_object("fault", |json| {
                     json.put_int("code", u64::from(code.unsigned_abs()));
@@ -270,6 +281,12 @@ impl Report {
             }
         });
     }
+}
+
+fn stands_text(since_s: f64) -> String {
+    format!(
+        "the line stands since {since_s:.2} s: `start` has had no edge since; release it before, and press it then"
+    )
 }
 
 /// Items that the sinks of a goal have of what they should have, and all that they should have.

@@ -141,6 +141,8 @@ fn simulate(
     let mut agenda = Agenda::new(line, stays, &inputs, analogue);
     let mut unpowered = Unpowered::new(line);
     let mut answer = SystemOutputs::default();
+    // The scan since which the line does not run.
+    let mut stands_since = Some(0);
     let mut trace = Vec::new();
     let mut progress = Progress::new(line);
     let mut conservation = Conservation::new(plant.items());
@@ -174,6 +176,7 @@ fn simulate(
             {
                 return Err(format!("the controllers changed the size of an output image in scan {scan}"));
             }
+            stands_since = if answer.running { None } else { stands_since.or(Some(scan)) };
             trace.clear();
             controllers.trace(&mut trace);
             let running = if answer.running { scans } else { 0 };
@@ -301,6 +304,7 @@ fn simulate(
     let outcome = Outcome {
         finished,
         reason,
+        stands_since: stands_since.filter(|_| fault.is_none() && operator.has_started(scan, &line.scenario)),
         fault,
         scans: scan,
         accounts: accounts.until(scan),

@@ -8,12 +8,14 @@ use crate::scan::SystemInputs;
 pub struct Operator {
     had_permit: bool,
     owes_start: bool,
+    /// It has given `start` at least once.
+    gave_start: bool,
     last: SystemInputs,
 }
 
 impl Operator {
     pub fn new() -> Self {
-        Self { had_permit: true, owes_start: false, last: SystemInputs::default() }
+        Self { had_permit: true, owes_start: false, gave_start: false, last: SystemInputs::default() }
     }
 
     pub fn inputs(&mut self, scan: u64, scenario: &Scenario) -> SystemInputs {
@@ -24,6 +26,7 @@ impl Operator {
         let start = self.owes_start && run_permit && self.had_permit;
         if start {
             self.owes_start = false;
+            self.gave_start = true;
         }
         self.had_permit = run_permit;
         self.last = SystemInputs {
@@ -32,6 +35,13 @@ impl Operator {
             reset: scenario.presses(LineButton::Reset, scan),
         };
         self.last
+    }
+
+    /// Whether the permit is there in this scan, not before that of the last inputs, and all edges of `start` were given.
+    pub fn has_started(&self, scan: u64, scenario: &Scenario) -> bool {
+        let mut later = self.clone();
+        later.inputs(scan, scenario);
+        later.had_permit && later.gave_start && !later.owes_start
     }
 
     /// The first scan after this one, whose inputs were given last, in which they may be others. None: never.

@@ -370,7 +370,8 @@ fn a_slow_cycle_of_the_mill_delays_the_cell() {
     }
     assert_eq!(later(&[slow(2, 7.5), slow(3, 20.0), slow(2, 2.5)]), 30.0);
     // It never begins before the goal is reached.
-    assert_eq!(tending(&format!(r#""slow": [{}]"#, slow(9, 30.0))), usual);
+    let never = Report { notes: Vec::new(), ..tending(&format!(r#""slow": [{}]"#, slow(9, 30.0))) };
+    assert_eq!(never, usual);
 }
 
 /// What the types say of a sensor that sticks or a door that jams: the state that waits for it lasts too long.
@@ -399,9 +400,9 @@ fn the_mill_reports_what_does_not_come() {
     assert_eq!(fault(&door(r#", "for_s": 8"#)), (true, String::new()));
 }
 
-/// A red piece passes a gate that does not close, or is not seen to be red.
+/// The belt waits for a gate that does not close. A piece that is not seen to be red goes into the wrong box.
 #[test]
-fn a_gate_that_jams_puts_pieces_into_the_wrong_box() {
+fn a_gate_that_jams_stops_the_sorter() {
     let run = |faults: &str| {
         let mut texts = side_by_side("sorting/sorting");
         let scenario = texts.scenario.expect("a scenario");
@@ -410,7 +411,9 @@ fn a_gate_that_jams_puts_pieces_into_the_wrong_box() {
     };
     let of_sorter = |key: &str, fault: &str| format!(r#""{key}": [{{"robot": "sorter", {fault}}}]"#);
     let gate = run(&of_sorter("jams", r#""part": "first_arm", "at_s": 0"#));
-    assert_eq!(gate, "sorter.last_box has collected more red than 0");
+    assert_eq!(gate, "fault 3 of sorter");
+    let late = run(&of_sorter("jams", r#""part": "first_arm", "at_s": 0, "for_s": 5"#));
+    assert_eq!(late, "all items collected");
     let colour = run(&of_sorter("sensors", r#""signal": "is_red", "reads": false, "at_s": 0"#));
     assert_eq!(colour, "sorter.last_box has collected more red than 0");
     let piece = run(&of_sorter("sensors", r#""signal": "at_stopper", "reads": false, "at_s": 0"#));
@@ -563,4 +566,75 @@ fn what_a_process_needs_is_there_when_it_starts() {
         state Holds { when after 1 s -> Works { hold_down := false; start := true; } }
         state Works { when ended -> Done {} }";
     assert_ne!(reason(let_go), lacks);
+}
+
+/// Each fault and each action that the run does not come to is told, and no other one.
+#[test]
+fn what_a_run_does_not_come_to_is_told() {
+    let device = "part drive = track {
+            corners: [origin * point(0, 0, 0), origin * point(6, 0, 0)]; places: [0.0, 6.0];
+            speed: 1.0; acceleration: 0.5; mass: 10;
+        };
+        part key = button {};
+        in pressed: bool = key.on;
+        out goal: int 0..1;
+        command 1 drive_to(goal) = drive.to(goal);";
+    let automaton = "initial -> Going { drive_to(1); }
+        state Going { when done -> Back { drive_to(0); } when failed -> Going { drive_to(1); } }
+        state Back { when pressed and done -> Going { drive_to(1); } }";
+    let scenario = r#""faults": {
+            "refusals": [{"robot": "it", "command": 1}, {"robot": "it", "command": 4}],
+            "answers": [{"robot": "it", "command": 3, "late_s": 1}, {"robot": "it", "command": 98, "late_s": 1}],
+            "pauses": [{"at_s": 4, "for_s": 1}, {"at_s": 60, "for_s": 1}],
+            "power_offs": [{"at_s": 500, "for_s": 1}],
+            "sensors": [{"robot": "it", "signal": "pressed", "reads": false, "at_s": 70}],
+            "jams": [{"robot": "it", "part": "drive", "at_s": 59.99}, {"robot": "it", "part": "drive", "at_s": 80}]
+        },
+        "operator": [
+            {"robot": "it", "part": "key", "at_s": 90, "for_s": 1},
+            {"part": "start", "at_s": 59, "for_s": 0.5}, {"part": "reset", "at_s": 100, "for_s": 0.5}
+        ]"#;
+    let notes = run(&line(device, automaton, scenario), |_| {}).report.notes;
+    assert_eq!(
+        notes,
+        [
+            "not reached: refusal of command 4 of it, which had 3 commands; name an earlier one",
+            "not reached: answer to command 98 of it, which had 3 commands; name an earlier one",
+            "not reached: pause at 60.00 s, as the run ended at 60.00 s; give an earlier time",
+            "not reached: loss of power at 500.00 s, as the run ended at 60.00 s; give an earlier time",
+            "not reached: input of it that sticks at 70.00 s, as the run ended at 60.00 s; give an earlier time",
+            "not reached: jam of it.drive at 80.00 s, as the run ended at 60.00 s; give an earlier time",
+            "not reached: operation of it.key at 90.00 s, as the run ended at 60.00 s; give an earlier time",
+            "not reached: press of `reset` at 100.00 s, as the run ended at 60.00 s; give an earlier time",
+        ]
+    );
+    let faults = r#""slow": [{"robot": "mill", "part": "cycle", "cycle": 9, "longer_s": 1}],
+        "slips": [{"robot": "arm", "pick": 1, "after_s": 900}, {"robot": "arm", "pick": 50, "after_s": 1}]"#;
+    assert_eq!(
+        tending(faults).notes,
+        [
+            "not reached: slip of pick 50 of arm, which had 7 picks; name an earlier one",
+            "not reached: slow cycle 9 of mill.cycle, which had 3 cycles; name an earlier one",
+        ]
+    );
+}
+
+/// A controller starts at an edge: one that is held during a pause gives none after it.
+#[test]
+fn a_line_that_stands_for_want_of_an_edge_is_told() {
+    let notes = |start: &str, at_s: &str| {
+        let pauses = format!(r#""faults": {{"pauses": [{{"at_s": {at_s}, "for_s": 1}}]}}"#);
+        let scenario = format!(r#"{pauses}, "operator": [{{"part": "start", {start}}}]"#);
+        run(&line(BAR, OPENS, &scenario), |_| {}).report.notes
+    };
+    let stands = |since: &str| {
+        vec![format!(
+            "the line stands since {since} s: `start` has had no edge since; release it before, and press it then"
+        )]
+    };
+    assert_eq!(notes(r#""at_s": 0.5"#, "2"), stands("2.00"));
+    assert_eq!(notes(r#""at_s": 0"#, "2"), stands("0.00"));
+    assert_eq!(notes(r#""at_s": 0.5, "for_s": 1"#, "2"), Vec::<String>::new());
+    // The pause lasts to the end of the run.
+    assert_eq!(notes(r#""at_s": 0.5"#, "59.5"), Vec::<String>::new());
 }

@@ -8,6 +8,7 @@ mod counterexamples;
 mod crossing;
 mod devices;
 mod distances;
+mod disturbed;
 mod drives;
 mod errors;
 mod examples;

@@ -22,7 +22,7 @@ pub fn text(files: &[OfFile], not_run: &[NotRun]) -> String {
             out,
             "  <testsuite name=\"{name}\" tests=\"{tests}\" failures=\"{failed}\" skipped=\"{skipped}\">"
         );
-        for Result { title, engine, outcome } in &file.results {
+        for Result { title, engine, outcome, .. } in &file.results {
             let on = engine.suffix();
             let _ = write!(
                 out,

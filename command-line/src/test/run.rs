@@ -52,8 +52,9 @@ pub fn file(options: &TestOptions, path: &Path) -> Result<OfFile, End> {
         };
         for engine in &options.on {
             match one(options, &compiled[number], test, *engine).map_err(End::Failed)? {
-                Ok(outcome) => {
-                    results.push(TestResult { title: test.title.value.clone(), engine: *engine, outcome });
+                Ok((outcome, notes)) => {
+                    let title = test.title.value.clone();
+                    results.push(TestResult { title, engine: *engine, outcome, notes });
                 }
                 Err(found) => wrong.extend(found),
             }
@@ -138,13 +139,16 @@ fn line(
     }
 }
 
+/// What came of a test, and the notes of its run.
+type Judged = (Outcome, Vec<String>);
+
 /// One test on one engine. Inner errors are those of the test, outer ones those of the engine.
 fn one(
     options: &TestOptions,
     line: &Compiled,
     test: &Test,
     engine: TestEngine,
-) -> Result<Result<Outcome, Vec<Diagnostic>>, String> {
+) -> Result<Result<Judged, Vec<Diagnostic>>, String> {
     let (system, plant) = (&line.project.system, &line.project.plant);
     if let Body::Machine { name, rows } = &test.body
         && engine != TestEngine::Executor
@@ -152,7 +156,7 @@ fn one(
             .is_ok_and(|machine| !testing::is_for_any_engine(system, machine, rows))
     {
         let why = "it shares values with other machines, which the test plays on the executor only";
-        return Ok(Ok(Outcome::Skipped(why)));
+        return Ok(Ok((Outcome::Skipped(why), Vec::new())));
     }
     match engine {
         TestEngine::Executor => {
@@ -172,7 +176,7 @@ fn on_structured_text(
     line: &Compiled,
     test: &Test,
     emitted: &Emitted,
-) -> Result<Result<Outcome, Vec<Diagnostic>>, String> {
+) -> Result<Result<Judged, Vec<Diagnostic>>, String> {
     let failed = |found: String| {
         let expected = vec!["the Structured Text executes every scan to its end".to_string()];
         let (place, found) = (test.title.span, found.lines().map(String::from).collect());
@@ -180,11 +184,11 @@ fn on_structured_text(
     };
     let mut text = match StructuredText::new(&line.project.system, emitted) {
         Ok(text) => text,
-        Err(why) => return Ok(Ok(failed(why))),
+        Err(why) => return Ok(Ok((failed(why), Vec::new()))),
     };
     let outcome = on(line, test, Engine::Other(&mut text), Stepping::EveryScan)?;
     Ok(match text.ended {
-        Some(why) => outcome.map(|_| failed(why)),
+        Some(why) => outcome.map(|(_, notes)| (failed(why), notes)),
         None => outcome,
     })
 }
@@ -194,8 +198,9 @@ fn on(
     test: &Test,
     mut engine: Engine,
     stepping: Stepping,
-) -> Result<Result<Outcome, Vec<Diagnostic>>, String> {
+) -> Result<Result<Judged, Vec<Diagnostic>>, String> {
     let system = &line.project.system;
+    let mut notes = Vec::new();
     let failures = match &test.body {
         Body::Machine { name, rows } => {
             let machine = match testing::instance(system, &name.value, name.span) {
@@ -208,7 +213,7 @@ fn on(
                 Played::Stopped => {
                     let why =
                         "another machine, which makes no steps on the executor, stops the line by a fault";
-                    return Ok(Ok(Outcome::Skipped(why)));
+                    return Ok(Ok((Outcome::Skipped(why), Vec::new())));
                 }
                 Played::Wrong(found) => return Ok(Err(found)),
             }
@@ -216,13 +221,15 @@ fn on(
         Body::Line(expected) => {
             let mut watched = Watched::new(engine.controllers(), system);
             let report = simulate(&line.project.plant, &mut watched, stepping, &mut |_| {})?;
+            notes.clone_from(&report.notes);
             match testing::judge(system, &line.sources, &report, &watched, expected) {
                 Ok(failures) => failures,
                 Err(found) => return Ok(Err(found)),
             }
         }
     };
-    Ok(Ok(if failures.is_empty() { Outcome::Passed } else { Outcome::Failed(failures) }))
+    let outcome = if failures.is_empty() { Outcome::Passed } else { Outcome::Failed(failures) };
+    Ok(Ok((outcome, notes)))
 }
 
 fn notice(options: &TestOptions) -> Notice {
@@ -260,14 +267,16 @@ mod tests {
         let line = &compiled[0];
         let right = Emitted::of(&st::files(&line.project.system, &line.sources));
         let outcome = |emitted: &Emitted| on_structured_text(line, test, emitted).expect("an engine").ok();
-        assert!(matches!(outcome(&right), Some(Outcome::Passed)));
+        assert!(matches!(outcome(&right), Some((Outcome::Passed, _))));
         for (text, why) in [
             ("WHILE elapsed >= 0 DO elapsed := 0; END_WHILE; CASE state OF", "EndlessLoop"),
             ("CASE unknown OF", "unknown"),
         ] {
             let wrong = Emitted::flat(right.main.replacen("CASE state OF", text, 1), right.names.clone());
             assert_ne!(wrong.main, right.main);
-            let Some(Outcome::Failed(failures)) = outcome(&wrong) else { panic!("{text} has not failed") };
+            let Some((Outcome::Failed(failures), _)) = outcome(&wrong) else {
+                panic!("{text} has not failed")
+            };
             assert!(failures[0].found.concat().contains(why), "{:?}", failures[0].found);
         }
     }

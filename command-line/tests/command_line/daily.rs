@@ -136,15 +136,21 @@ fn every_command_is_completed() {
 fn a_line_of_which_nothing_is_asked_says_so() {
     let folder = folder("asks_nothing");
     let layout = example("ariac2021/default.json");
-    fs::write(folder.join("none.json"), r#"{ "time_limit_s": 2, "faults": { "pauses": [] } }"#)
-        .expect("a file");
+    fs::write(
+        folder.join("none.json"),
+        r#"{ "time_limit_s": 2, "faults": { "pauses": [{ "at_s": 5, "for_s": 1 }] } }"#,
+    )
+    .expect("a file");
     let arguments = ["commission", &layout, "--scenario", "none.json", "-o", "made"];
     let output = autogen(&folder, &arguments);
     assert_eq!(status(&output), 0, "{}", errors(&output));
     let note = "the scenario has neither orders nor a goal, so as1 and the other stations have nothing to do";
     assert!(said(&output).contains(&format!("note: {note}; ")), "{}", said(&output));
+    let late = "not reached: pause at 5.00 s, as the run ended at 2.00 s; give an earlier time";
+    assert!(said(&output).contains(&format!("note: {late}\n")), "{}", said(&output));
     let output = autogen(&folder, &[&arguments[..], &["--format", "json"]].concat());
     assert!(json(&output)["note"].as_str().expect("a text").starts_with(note), "{}", said(&output));
+    assert_eq!(json(&output)["notes"][0], late);
 }
 
 #[test]

@@ -202,6 +202,20 @@ fn a_loss_of_power_has_the_same_times_on_all_engines() {
     assert_eq!((status(&output), at_45), (3, 2), "{}{}", said(&output), errors(&output));
 }
 
+/// A test may pass although its fault did not come: then it says so.
+#[test]
+fn a_fault_that_a_run_does_not_come_to_is_told() {
+    let spec =
+        "device unit { part light = lamp { at: pose; colour: red; }; out on: bool = light.on stop false; }
+        automaton Unit on unit { initial -> On { on := true; } final state On; }";
+    let robots = r#"{"name": "unit", "type": "unit", "pose": [0, 0, 0]}"#;
+    let pause = r#"{"time_limit_s": 2, "faults": {"pauses": [{"at_s": 5, "for_s": 1}]}}"#;
+    let output = run_of("test_not_reached", spec, robots, pause, "expect finished;");
+    let note = "    note: not reached: pause at 5.00 s, as the run ended at 2.00 s; give an earlier time\n";
+    let told = said(&output).matches(note).count();
+    assert_eq!((status(&output), told), (0, 2), "{}{}", said(&output), errors(&output));
+}
+
 /// Two belts that wait for one another stand still on all engines, although times in states go on.
 #[test]
 fn a_deadlock_is_found_on_all_engines() {

@@ -21,7 +21,7 @@ use program::Program;
 use runtime_sim::device::{Direction, Extent, PortType, Stop};
 use runtime_sim::part::{Operated, Schema};
 use runtime_sim::value::Value;
-use runtime_sim::wiring::Wiring;
+use runtime_sim::wiring::{Input, Source, Wiring};
 use std::sync::Arc;
 
 /// A device that has passed every check; only [`check`] makes one.
@@ -214,6 +214,22 @@ impl Device {
     pub fn operated(&self) -> impl Iterator<Item = (usize, &str, Operated)> {
         let parts = self.program.parts.iter().enumerate();
         parts.filter_map(|(number, part)| Some((number, part.name.value.as_str(), part.schema.operated?)))
+    }
+
+    /// What a part that a person operates may be set to: the type of the inputs that read it, or of its signal if none
+    /// does.
+    pub fn type_of_operated(&self, number: usize) -> PortType {
+        let inputs = self.ports.iter().filter(|port| port.direction == Direction::Input);
+        let reads = |input: &Input| matches!(input.source, Source::Signal { part, .. } if part == number);
+        let read_by = inputs.zip(&self.wiring.inputs).filter(|(_, input)| reads(input));
+        let types = read_by.map(|(port, _)| port.ty);
+        let narrower = |a, b| match (a, b) {
+            (PortType::Int { lo, hi }, PortType::Int { lo: low, hi: high }) => {
+                PortType::Int { lo: lo.max(low), hi: hi.min(high) }
+            }
+            _ => a,
+        };
+        types.reduce(narrower).unwrap_or(self.program.parts[number].schema.signals[0].ty)
     }
 
     /// Number, name and primitive of each of its parts.

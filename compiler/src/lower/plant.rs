@@ -1,6 +1,7 @@
 //! What the simulator needs of a system.
 
 use super::role::Line;
+use crate::device::panel;
 use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
 use crate::ir::{Automaton, Expr, InterfaceId, PropertyKind, RoleKind, State, System, Value};
@@ -26,8 +27,15 @@ pub fn resolve(
     let panels: Vec<Panel> = (0..line.robots.len())
         .flat_map(|r| {
             let robot = line.robots[r].object.name.value.as_str();
-            let parts = line.automaton(r).device.operated();
-            parts.map(move |(number, part, operated)| Panel { robot, part, numbers: [r, number], operated })
+            let device = &line.automaton(r).device;
+            device.operated().map(move |(number, part, operated)| Panel {
+                robot,
+                part,
+                numbers: [r, number],
+                operated,
+                ty: device.type_of_operated(number),
+                commands: (part == panel::VERB).then_some(&device.verbs[..]),
+            })
         })
         .collect();
     let kinds = scenario.kinds.len();
@@ -91,7 +99,7 @@ pub fn line(
 ) -> line::Line {
     let asks_nothing = scenario.number == Number::None && scenario.goal.is_empty();
     let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
-    let pause = |p: &scenario::Pause| line::Pause { at_scan: scans(p.at_s), scans: scans(p.for_s) };
+    let pause = |p: &scenario::Pause| line::Pause { at_scan: scans(p.at_s), scans: scans(p.for_s).max(1) };
     let during = |at_s: f64, for_s: Option<f64>| line::During {
         at_scan: scans(at_s),
         scans: for_s.map(|for_s| scans(for_s).max(1)),

@@ -9,10 +9,11 @@ use super::{
     Answer, Collected, Faults, Items, MOST_PARTS, Number, Operation, Order, Part, Refusal, ResolvedScenario,
     Scenario, Slip, supply,
 };
+use crate::device::{Verb, type_text};
 use crate::diagnostic::{Diagnostic, MOST, collect, sort};
-use crate::layout::decode::{instead, listing};
+use crate::layout::decode::{instead, listing, readable};
 use crate::source::{Span, Spanned};
-use runtime_sim::device::LAST_COMMAND;
+use runtime_sim::device::{Extent, LAST_COMMAND, PortType};
 use runtime_sim::part::Operated;
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -45,6 +46,10 @@ pub struct Panel<'a> {
     /// Of the machine and of the part.
     pub numbers: [usize; 2],
     pub operated: Operated,
+    /// Of the input that reads it.
+    pub ty: PortType,
+    /// Of a part that chooses one of them by its number.
+    pub commands: Option<&'a [Verb]>,
 }
 
 /// What the belts bring.
@@ -86,7 +91,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
                 presses.push(Operation { part: *button, at_s: *at_s, for_s: *for_s, value: *value });
             }
             super::Operated::OfRobot(part) => {
-                let found = resolver.operated(part);
+                let found = resolver.operated(part, *value);
                 operations.extend(found.map(|part| Operation {
                     part,
                     at_s: *at_s,
@@ -157,7 +162,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// Machine and part.
-    fn operated(&mut self, operated: &Part) -> Option<[usize; 2]> {
+    fn operated(&mut self, operated: &Part, number: f64) -> Option<[usize; 2]> {
         let Part { robot, part, value } = operated;
         let all = self.line.panels;
         if !all.iter().any(|panel| panel.robot == robot.value) {
@@ -184,12 +189,49 @@ impl<'a> Resolver<'a> {
             }
             (Operated::SetNumber, None) => {
                 let message = format!("\"{}\" is a set-point and needs a number", part.value);
-                self.wrong_operation(part.span, message, |d| d.help("add the number: \"value\": 1.5"));
+                let help = match found.ty {
+                    PortType::Int { lo, hi } => {
+                        format!("add a whole number from {lo} to {hi}: \"value\": {}", lo.max(0).min(hi))
+                    }
+                    _ => "add the number: \"value\": 1.5".into(),
+                };
+                self.wrong_operation(part.span, message, |d| d.help(help));
                 return None;
             }
-            (Operated::Press, None) | (Operated::SetNumber, Some(_)) => {}
+            (Operated::SetNumber, Some(value)) => self.number(found, *value, number)?,
+            (Operated::Press, None) => {}
         }
         Some(found.numbers)
+    }
+
+    /// Whether a part can be set to this number.
+    fn number(&mut self, panel: &Panel, place: Span, number: f64) -> Option<()> {
+        let bounds = match panel.ty {
+            PortType::Int { lo, hi } => Some((lo, hi)),
+            _ => None,
+        };
+        let is_whole = bounds.is_none_or(|(lo, hi)| {
+            number.fract() == 0.0 && (f64::from(lo)..=f64::from(hi)).contains(&number)
+        });
+        let is_command =
+            |verbs: &[Verb]| number == 0.0 || verbs.iter().any(|v| f64::from(v.number) == number);
+        let [note, help] = match (panel.commands, bounds) {
+            (Some(verbs), _) if !is_command(verbs) => {
+                let named: Vec<String> = verbs.iter().map(|v| format!("{} {}", v.number, v.name)).collect();
+                [
+                    format!("the commands of {} are: {}", panel.robot, named.join(", ")),
+                    "write the number of one of them, or 0 for none".into(),
+                ]
+            }
+            (_, Some((lo, hi))) if !is_whole => [
+                format!("its type is {}", type_text(panel.ty, Extent::One)),
+                format!("write a whole number from {lo} to {hi}"),
+            ],
+            _ => return Some(()),
+        };
+        let message = format!("\"{}\" of {} cannot be set to {}", panel.part, panel.robot, readable(number));
+        self.wrong_operation(place, message, |d| d.note(note).help(help));
+        None
     }
 
     fn collected(&mut self, collected: &Collected<Spanned<String>>) -> Option<Collected<[usize; 2]>> {

@@ -352,6 +352,10 @@ impl Running for Cycle {
         Box::new(self.clone())
     }
 
+    fn cycles(&self) -> u32 {
+        self.started
+    }
+
     fn level(&mut self, _level: usize, value: &[f64]) {
         let is_on = value[0] != 0.0;
         self.is_asked |= is_on && !self.is_on;

@@ -312,6 +312,11 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         None
     }
 
+    /// Cycles that have begun.
+    fn cycles(&self) -> u32 {
+        0
+    }
+
     fn joints(&self) -> Option<Joints> {
         None
     }

@@ -129,6 +129,11 @@ impl Head {
         Asked::Withdrawn
     }
 
+    /// Commands that were given, refused ones too.
+    pub fn accepted(&self) -> u32 {
+        self.accepted
+    }
+
     /// What the scenario says of the last command.
     fn answer(&self) -> Option<Answer> {
         self.answers.iter().find(|answer| answer.command == self.accepted).copied()

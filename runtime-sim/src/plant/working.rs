@@ -122,6 +122,19 @@ impl Working {
         })
     }
 
+    pub fn commands(&self) -> u32 {
+        self.head.as_ref().map_or(0, Head::accepted)
+    }
+
+    pub fn picks(&self) -> u32 {
+        self.picks
+    }
+
+    /// Cycles of a process that have begun.
+    pub fn cycles(&self, part: usize) -> u32 {
+        self.parts.get(part).and_then(Option::as_ref).map_or(0, |part| part.cycles())
+    }
+
     pub fn faults(&self) -> &Faults {
         &self.faults
     }

@@ -1,0 +1,60 @@
+//! What a run did not come to.
+
+use crate::line::{Line, LineButton};
+use crate::plant::Plant;
+use crate::report::seconds;
+
+/// What the scenario has go wrong, or somebody do, that did not happen in so many scans, a line each.
+pub fn not_reached(line: &Line, plant: &Plant, scans: u64) -> Vec<String> {
+    let scenario = &line.scenario;
+    let name = |machine: usize| &line.machines[machine].name;
+    let part = |machine: usize, part: usize| {
+        let machine = &line.machines[machine];
+        format!("{}.{}", machine.name, machine.parts[part].name)
+    };
+    let counted = |what: String, number: u32, found: u32, of_what: &str| {
+        (number > found || number == 0)
+            .then(|| format!("not reached: {what}, which had {found} {of_what}; name an earlier one"))
+    };
+    let command = |what: &str, machine: usize, number: u32| {
+        let what = format!("{what} command {number} of {}", name(machine));
+        counted(what, number, plant.commands(machine), "commands")
+    };
+    let end_s = seconds(scans, line.scan_ms);
+    let late = |what: String, at_s: f64| {
+        format!("not reached: {what} at {at_s:.2} s, as the run ended at {end_s:.2} s; give an earlier time")
+    };
+    let timed = |what: String, at: u64| (at >= scans).then(|| late(what, seconds(at, line.scan_ms)));
+
+    let slips = scenario.slips.iter().map(|slip| {
+        let what = format!("slip of pick {} of {}", slip.pick, name(slip.machine));
+        counted(what, slip.pick, plant.picks(slip.machine), "picks")
+    });
+    let refusals = scenario.refusals.iter().map(|r| command("refusal of", r.machine, r.command));
+    let answers = scenario.answers.iter().map(|a| command("answer to", a.machine, a.command));
+    let pauses = scenario.pauses.iter().map(|pause| timed("pause".into(), pause.at_scan));
+    let power_offs = scenario.power_offs.iter().map(|off| timed("loss of power".into(), off.at_scan));
+    let sensors = scenario
+        .sensors
+        .iter()
+        .map(|stuck| timed(format!("input of {} that sticks", name(stuck.machine)), stuck.during.at_scan));
+    let jams = scenario.jams.iter();
+    let jams = jams.map(|jam| timed(format!("jam of {}", part(jam.machine, jam.part)), jam.during.at_scan));
+    let slow = scenario.slow.iter().map(|slow| {
+        let what = format!("slow cycle {} of {}", slow.cycle, part(slow.machine, slow.part));
+        counted(what, slow.cycle, plant.cycles(slow.machine, slow.part), "cycles")
+    });
+    let operations = scenario.operations.iter().map(|operation| {
+        let what = format!("operation of {}", part(operation.machine, operation.part));
+        (operation.at_s >= end_s).then(|| late(what, operation.at_s))
+    });
+    let presses = scenario.presses.iter().map(|press| {
+        let button = match press.button {
+            LineButton::Start => "start",
+            LineButton::Reset => "reset",
+        };
+        timed(format!("press of `{button}`"), press.during.at_scan)
+    });
+    let faults = slips.chain(refusals).chain(answers).chain(pauses).chain(power_offs);
+    faults.chain(sensors).chain(jams).chain(slow).chain(operations).chain(presses).flatten().collect()
+}
