@@ -8,8 +8,10 @@ use runtime_sim::part::Schema;
 use runtime_sim::wiring::Drives;
 use std::collections::BTreeSet;
 
-/// Parts that move, fill or work while a level is on.
-const WORK: [&str; 4] = ["lane", "process", "source", "tank"];
+/// Parts that move or fill while a level is on.
+const WORK: [&str; 2] = ["lane", "tank"];
+/// Parts that act when a level rises: it may stay in a pause, but must not come back by itself at power-up.
+const ACT_BY_EDGE: [&str; 2] = ["process", "source"];
 const CYLINDER: &str = "cylinder";
 
 /// Parts that move a machine as a whole or in its joints.
@@ -39,7 +41,8 @@ fn unstopped(automaton: &Automaton) -> Vec<Diagnostic> {
         let Some((_, name, Schema { name: kind, .. })) = primitive(*part) else { continue };
         let is_retained = automaton.retained.ports.contains(number);
         let valves = levels.iter().filter(|(_, other)| other == part).count();
-        let moves = WORK.contains(kind) || *kind == CYLINDER && valves == 1 && is_retained;
+        let comes_back = ACT_BY_EDGE.contains(kind) || *kind == CYLINDER && valves == 1;
+        let moves = WORK.contains(kind) || comes_back && is_retained;
         let Some(place) = port.place.filter(|_| moves && port.stop == Stop::Hold) else { continue };
         let value = if port.ty == PortType::Bool { "false" } else { "0" };
         let message = format!("`{}` keeps its value while the line is stopped", port.name);
