@@ -162,7 +162,7 @@ impl Expanded {
         let cut = expander.cut.clone();
         let mut emit = |successor: Successor| {
             after.transitions += 1;
-            if after.transitions % SUCCESSORS == 0 {
+            if after.transitions.is_multiple_of(SUCCESSORS) {
                 cut.takes(size_of::<Step>() * steps.capacity() + codes.capacity() + unknown.size());
             }
             if successor.result.is_err() {

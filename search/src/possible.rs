@@ -180,13 +180,13 @@ impl<'a> Possible<'a> {
         states.map(|state| model.is_made(&state) || model.any_stands(&state)).collect()
     }
 
-    /// Whether nothing leads to the orders, not even a stop for an operator.
+    /// Whether nothing leads to the orders. A stop for an operator does not: it may come of an item that is not known.
     fn is_never_made_from_the_start(&mut self) -> Result<bool, Open> {
         let model = self.expander.model;
         let can = self.made();
         let mut first = vec![false; self.states];
         first[0] = true;
-        Ok(!model.orders.is_empty() && self.reach(can, &first, Stops::AreGoals)?.is_some())
+        Ok(!model.orders.is_empty() && self.reach(can, &first, Stops::AreNoGoal)?.is_some())
     }
 
     fn never_followed(&mut self, found: &mut Vec<(Violation, usize)>) -> Result<(), Open> {

@@ -68,6 +68,8 @@ fn an_item_hangs_by_its_grip_point() {
 fn the_upper_side_is_no_contact_then() {
     let mut texts = robot(Some(0.085));
     texts.specs[0] = texts.specs[0].replace("surface + kind_grasps[0]", "surface + kind_heights[0]");
+    assert!(texts.specs[0].contains("near: 0.02"));
+    texts.specs[0] = texts.specs[0].replace("near: 0.02", "near: 0.01");
     let (report, hangs) = hangs(&texts);
     assert!(hangs.is_empty() && !report.finished, "{}", report.reason);
     let mut texts = robot(None);

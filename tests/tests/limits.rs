@@ -1,9 +1,7 @@
 //! What is beyond a limit of `docs/limits.md` is refused with one diagnostic that names it, and what ends within it
 //! is not held up.
 
-#[path = "../benches/cost/lines.rs"]
-mod lines;
-
+use crate::long_lines;
 use autogen::lower::Outcome;
 use autogen_tests::{Texts, ariac, is_full_campaign};
 
@@ -61,7 +59,7 @@ fn pairs_that_stand_near_one_another_are_bounded() {
 #[test]
 fn ten_thousand_robots_in_long_lines_stay_possible() {
     let robots = if is_full_campaign() { 10_000 } else { 1400 };
-    for layout in [lines::long(robots), lines::copies(robots / 7)] {
+    for layout in [long_lines::long(robots), long_lines::copies(robots / 7)] {
         assert_eq!(codes(&Texts::of_layout(layout).compile()), [""; 0]);
     }
 }

@@ -67,6 +67,10 @@ mod why;
 mod world;
 mod wrong_plants;
 
+/// Those of the bench.
+#[path = "../benches/cost/lines.rs"]
+pub(crate) mod long_lines;
+
 use autogen_tests::{root, text};
 use std::collections::BTreeSet;
 

@@ -1,9 +1,6 @@
 //! Emitted Structured Text follows the hand-written traces, and the judge finds what is wrong with a text.
 
-#[allow(dead_code)] // The long lines are of another test.
-#[path = "../benches/cost/lines.rs"]
-mod lines;
-
+use crate::long_lines;
 use autogen::backend::st;
 use autogen::ir::System;
 use autogen::source::Sources;
@@ -119,7 +116,7 @@ fn what_is_retained_was_kept_everywhere() {
 /// Most of its vehicles get to none of most stations: a loop gives that to all, and the others get theirs behind it.
 #[test]
 fn a_long_table_has_all_its_values_after_the_first_scan() {
-    let outcome = Texts::of_layout(lines::copies(4)).compile();
+    let outcome = Texts::of_layout(long_lines::copies(4)).compile();
     let system = outcome.project.expect("a line that is right").system;
     let text = emitted(&system, &outcome.sources).main;
     judge(&text).unwrap_or_else(|findings| panic!("{}", listed(&findings, &text)));

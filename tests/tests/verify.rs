@@ -142,7 +142,7 @@ fn an_item_may_be_on_a_place_that_is_carried() {
             let mut states = 0..outcome.reached.len();
             let is_reached =
                 states.any(|of| program.state.load(&outcome.reached.state(of)) as usize == state);
-            assert!(is_reached, "{}", text.name);
+            assert!(is_reached || outcome.entered.contains(&(number, state)), "{}", text.name);
         }
     }
 }

@@ -1,7 +1,9 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{Project, Verdict, bind, collected, complete, device_key, kinds, lonely, overlap, plant, role, short};
+use super::{
+    Project, Verdict, bind, collected, complete, device_key, kinds, lonely, overlap, plant, role, short,
+};
 use crate::check::{self, Checked};
 use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};

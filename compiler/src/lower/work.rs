@@ -31,7 +31,8 @@ fn of_scans(system: &System, id: AutomatonId) -> Option<Diagnostic> {
     let (place, operations) = work.of_scans().into_iter().max_by_key(|(_, operations)| *operations)?;
     (operations > MOST).then(|| {
         let roles = automaton.roles.iter().zip(&members);
-        let roles: Vec<String> = roles.map(|(role, members)| format!("`{}` has {members}", role.name)).collect();
+        let roles: Vec<String> =
+            roles.map(|(role, members)| format!("`{}` has {members}", role.name)).collect();
         too_much(place, "this could take too long for one scan of this line", operations, MOST)
             .note(format!("members of roles: {}", roles.join(", ")))
             .help("give roles a greatest number of members, or nest fewer of them")

@@ -6,6 +6,7 @@ use crate::line::Line;
 use crate::part::Primitive;
 use crate::part::lane::CentreLine;
 use crate::point::Point;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Ends that are farther from each other were not meant to meet, m and degrees.
 const NEAR: f64 = 0.15;
@@ -34,33 +35,40 @@ impl Gap {
     }
 }
 
+/// A conveyor of a line, with its centre lines wherever it may be.
+struct Conveyor {
+    number: (usize, usize),
+    lines: Vec<CentreLine>,
+    has_sink: bool,
+}
+
 /// The gaps of a line. Conveyors that continue as another one, or end in a sink, have none.
 pub fn gaps(line: &Line) -> Vec<Gap> {
-    let mut lanes = Vec::new();
+    let mut conveyors = Vec::new();
     for (number, machine) in line.machines.iter().enumerate() {
         for (part, of) in machine.parts.iter().enumerate() {
             if let Primitive::Lane(lane) = &of.primitive {
-                let lines: Vec<CentreLine> =
-                    machine.centre_lines(lane).into_iter().map(|(_, line)| line).collect();
-                lanes.push(((number, part), lines, ends_in_a_sink(line, number, part)));
+                let lines = machine.centre_lines(lane).into_iter().map(|(_, line)| line).collect();
+                let has_sink = ends_in_a_sink(line, number, part);
+                conveyors.push(Conveyor { number: (number, part), lines, has_sink });
             }
         }
     }
+    let begins = Begins::new(&conveyors);
     let mut gaps = Vec::new();
-    for (from, ends, has_sink) in &lanes {
-        let others = || lanes.iter().filter(|(to, ..)| to != from);
-        let pairs = |begins: &[CentreLine]| -> Vec<(CentreLine, CentreLine)> {
-            ends.iter().flat_map(|end| begins.iter().map(|begin| (*end, *begin))).collect()
+    for from in conveyors.iter().filter(|from| !from.has_sink) {
+        let near: Vec<&Conveyor> = begins.near(from).map(|number| &conveyors[number]).collect();
+        let others = || near.iter().filter(|to| to.number != from.number);
+        let pairs = |to: &Conveyor| -> Vec<(CentreLine, CentreLine)> {
+            from.lines.iter().flat_map(|end| to.lines.iter().map(|begin| (*end, *begin))).collect()
         };
-        let is_joined =
-            others().any(|(_, begins, _)| pairs(begins).iter().any(|(end, begin)| joins(end, begin)));
-        if *has_sink || is_joined {
+        if others().any(|to| pairs(to).iter().any(|(end, begin)| joins(end, begin))) {
             continue;
         }
-        for (to, begins, _) in others() {
-            let near = pairs(begins).into_iter().map(|(end, begin)| Gap {
-                from: *from,
-                to: *to,
+        for to in others() {
+            let near = pairs(to).into_iter().map(|(end, begin)| Gap {
+                from: from.number,
+                to: to.number,
                 end: end.frame(end.end()),
                 begin: begin.frame(begin.begin()),
             });
@@ -69,6 +77,43 @@ pub fn gaps(line: &Line) -> Vec<Gap> {
         }
     }
     gaps
+}
+
+/// Conveyors by the squares of the floor in which they begin.
+struct Begins {
+    squares: BTreeMap<[i64; 2], BTreeSet<usize>>,
+}
+
+impl Begins {
+    fn new(conveyors: &[Conveyor]) -> Self {
+        let mut squares: BTreeMap<[i64; 2], BTreeSet<usize>> = BTreeMap::new();
+        for (number, conveyor) in conveyors.iter().enumerate() {
+            for line in &conveyor.lines {
+                squares.entry(square(line.frame(line.begin()).position)).or_default().insert(number);
+            }
+        }
+        Self { squares }
+    }
+
+    /// Numbers of all that may begin within [`NEAR`] of an end of this one, in their order.
+    fn near(&self, from: &Conveyor) -> impl Iterator<Item = usize> {
+        let mut near = BTreeSet::new();
+        for line in &from.lines {
+            let [x, y] = square(line.frame(line.end()).position);
+            for i in x - 1..=x + 1 {
+                let around = self.squares.range([i, y - 1]..=[i, y + 1]);
+                near.extend(around.flat_map(|(_, numbers)| numbers));
+            }
+        }
+        near.into_iter()
+    }
+}
+
+/// Sides of squares are not shorter than what is near, and joints are nearer.
+const SIDE: f64 = 2.0 * NEAR;
+
+fn square(place: Point) -> [i64; 2] {
+    [place.x, place.y].map(|along| (along / SIDE).floor() as i64)
 }
 
 fn ends_in_a_sink(line: &Line, machine: usize, part: usize) -> bool {
