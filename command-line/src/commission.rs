@@ -93,7 +93,9 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
         report["waits"] = json!(waits);
     }
     if let Some(note) = asks_nothing(&built) {
-        report["note"] = json!(note);
+        let mut notes = report["notes"].as_array().cloned().unwrap_or_default();
+        notes.push(json!(note));
+        report["notes"] = json!(notes);
     }
     report["layout"] = json!(built.project.name);
     report["settings"] = json!(options.build.input.settings);
@@ -269,7 +271,7 @@ fn text(report: &Value, wall: f64, output: &Output) -> String {
     let number = |v: &Value| v.as_f64().unwrap_or(0.0);
     let mut out = format!("{}\n\n", report["reason"].as_str().unwrap_or("").replace("; ", "\n  "));
     let notes = report["notes"].as_array().map_or(&[][..], Vec::as_slice);
-    for note in notes.iter().chain([&report["note"]]).filter_map(Value::as_str) {
+    for note in notes.iter().filter_map(Value::as_str) {
         out += &format!("note: {note}\n\n");
     }
     let is_ordered = report["orders"] != 0;
