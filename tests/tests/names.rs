@@ -86,6 +86,7 @@ fn types(names: &BTreeSet<String>) -> String {
                 }}
                 state B within 10 s {{ when r.c = 0 -> A {{ unit_turns := false; }} }}
                 invariant n < 9 else warn \"all nine\";
+                invariant n < 8 or not unit_turns else stop machine \"it turns\";
             }}
             "
         )
@@ -103,7 +104,13 @@ fn members(names: &BTreeSet<String>) -> String {
     let each = |piece: &dyn Fn(&str) -> String| names.iter().map(|name| piece(name)).collect::<String>();
     let automaton = |head: &str, declared: &dyn Fn(&str) -> String, transition: &dyn Fn(&str) -> String| {
         format!(
-            "automaton {head} {{ local sum_of_all: int 0..11; {} initial -> First {{}} state First {{ {} }} }}\n",
+            "automaton {head} {{
+                local sum_of_all: int 0..11;
+                {}
+                initial -> First {{}}
+                state First {{ {} }}
+                invariant sum_of_all < 9 or not unit_turns else stop machine \"it turns\";
+            }}\n",
             each(declared),
             each(transition)
         )

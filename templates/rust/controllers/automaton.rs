@@ -223,11 +223,14 @@ impl<'a> {{ ty }}<'a> {
     }
     {%- if !properties.is_empty() %}
 
-    {%- if masks %}
+    {%- if !masks.is_empty() %}
     /// Checks the properties, after the steps of every scan. They see the outputs that are put out.
     pub fn properties(&mut self, {{ property_parameters }}) -> Result<(), Fault> {
         let set = self.outputs;
-        self.outputs = self.published(true);
+        let put = self.published(true);
+        {%- for output in masks %}
+        self.outputs.{{ output }} = put.{{ output }};
+        {%- endfor %}
         let checked = self.check_properties({{ property_arguments }});
         self.outputs = set;
         checked

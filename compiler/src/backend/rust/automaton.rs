@@ -40,8 +40,8 @@ struct Module {
     properties: Vec<String>,
     property_parameters: String,
     property_arguments: String,
-    /// Properties see other outputs than the automaton has set.
-    masks: bool,
+    /// Outputs of which properties see what is put out.
+    masks: Vec<String>,
     /// Properties keep something from scan to scan.
     remembers: bool,
     anew: Vec<String>,
@@ -147,7 +147,7 @@ pub fn module(context: &Context) -> String {
         properties: property::properties(context),
         property_parameters: context.parameters(&property::uses(context)),
         property_arguments: context.arguments(&property::uses(context)),
-        masks: !automaton.masked.is_empty(),
+        masks: automaton.masked.iter().map(|port| names.ports[*port].clone()).collect(),
         remembers: property::remembers(automaton),
         anew: property::anew(context),
         counters: property::counters(context),

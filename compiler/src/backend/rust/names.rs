@@ -87,6 +87,7 @@ const METHODS: &[&str] = &[
     "step",
     "observe_anew",
     "properties",
+    "check_properties",
     "stay",
     "published",
     "limit",
