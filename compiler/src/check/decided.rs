@@ -5,12 +5,9 @@ use super::context::Context;
 use super::expression::arithmetic::whole;
 use super::facts::{self, Interval};
 use crate::diagnostic::{Diagnostic, MOST};
-use crate::ir::{Domain, Expr, ExprKind, Operator, Place, Scalar};
+use crate::ir::{Domain, Expr, ExprKind, KIND, Operator, Place, Scalar};
 use crate::source::Span;
 use crate::spec::written;
-
-/// The number of the enumeration of the kinds, which another scenario may have more of.
-const KIND: usize = 0;
 
 impl Context<'_, '_> {
     fn remark(&mut self, remark: Diagnostic) {
@@ -113,7 +110,8 @@ impl Context<'_, '_> {
                 let (a, b) = of(a, b)?;
                 whole(*operator, a, b)
             }
-            ExprKind::Count { domain, .. } if !matches!(**domain, Domain::Enum(id) if id.0 == KIND) => {
+            // Another scenario may have more kinds.
+            ExprKind::Count { domain, .. } if !matches!(**domain, Domain::Enum(id) if id == KIND) => {
                 facts::of_type(expr.ty)
             }
             ExprKind::Members(_) => facts::of_type(expr.ty),

@@ -1,8 +1,7 @@
 //! What comes behind the steps: properties, and the alarms that they raise.
 
 use super::Executor;
-use crate::ir::{ByHand, Expr, FaultId, Property, PropertyKind, Scalar, Severity, Value};
-use runtime_sim::device::Stop;
+use crate::ir::{Expr, FaultId, Property, PropertyKind, Severity, Value};
 use runtime_sim::scan::SystemOutputs;
 
 /// An entry of the table of alarms.
@@ -65,7 +64,8 @@ impl Executor<'_> {
         if masked.is_empty() {
             return self.properties_of_values(robot, starts);
         }
-        let put: Vec<Vec<Value>> = masked.iter().map(|port| self.put_out(robot, *port)).collect();
+        let runs = !self.robots[robot].stopped;
+        let put: Vec<Vec<Value>> = masked.iter().map(|port| self.put_out(robot, *port, runs)).collect();
         let exchange = |ports: &mut [Vec<Value>], values: Vec<Vec<Value>>| -> Vec<Vec<Value>> {
             let exchanged = masked.iter().zip(values);
             exchanged.map(|(port, values)| std::mem::replace(&mut ports[*port], values)).collect()
@@ -74,26 +74,6 @@ impl Executor<'_> {
         let checked = self.properties_of_values(robot, starts);
         exchange(&mut self.robots[robot].ports, set);
         checked
-    }
-
-    /// What an output with a stop value is while the line runs.
-    fn put_out(&mut self, robot: usize, port: usize) -> Vec<Value> {
-        let system = self.system;
-        let automaton = system.automaton_of(robot);
-        let set = self.robots[robot].ports[port].clone();
-        let is_set = |local: Option<usize>| local.is_some_and(|local| self.is_set(robot, local));
-        let modes = automaton.modes.as_ref();
-        let runs = !self.robots[robot].stopped && !is_set(modes.map(|modes| modes.moved_by_hand));
-        let (by_hand, commanded) =
-            modes.map_or((false, false), |modes| (is_set(modes.by_hand), is_set(modes.commanded)));
-        let declared = &automaton.device.ports[port];
-        match (declared.stop, modes.and_then(|modes| modes.published[port].as_ref())) {
-            _ if runs => set,
-            (_, Some(ByHand::Panel(value))) if by_hand => vec![self.value(robot, value)],
-            (_, Some(ByHand::Argument)) if commanded => set,
-            (Stop::Value(stop), _) => vec![Value::from_words(Scalar::from(declared.ty), &[stop]); set.len()],
-            (Stop::Hold, _) => set,
-        }
     }
 
     fn properties_of_values(&mut self, robot: usize, starts: bool) -> Result<(), FaultId> {

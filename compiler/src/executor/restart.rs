@@ -41,7 +41,7 @@ impl Executor<'_> {
             }
         }
         if self.robots[robot].state == 0 {
-            automaton.outputs_that_begin_anew().for_each(|port| self.put_first(robot, port));
+            automaton.outputs_that_stop().for_each(|port| self.put_first(robot, port));
         }
         self.cells_begin_anew(robot);
         let has_commanded = self.port_of(robot, "cmd") != 0;

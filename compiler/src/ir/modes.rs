@@ -54,9 +54,9 @@ pub enum Action {
 }
 
 impl Automaton {
-    /// Outputs of the device, by their numbers, that are as at power-up when an instance begins anew: no earlier command
-    /// is finished.
-    pub fn outputs_that_begin_anew(&self) -> impl Iterator<Item = usize> {
+    /// Outputs of the device with stop values, by their numbers, but for `hold`. They are as at power-up when an instance
+    /// begins anew: no earlier command is finished.
+    pub fn outputs_that_stop(&self) -> impl Iterator<Item = usize> {
         let has_stop =
             |port: &crate::device::Port| port.direction == Direction::Output && port.stop != Stop::Hold;
         let is_hold = |port: &crate::device::Port| self.device.is_commanded() && port.name == "hold";

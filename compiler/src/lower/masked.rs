@@ -1,7 +1,6 @@
 //! Which outputs properties see otherwise than the automaton has set them, as `docs/semantics.md` says.
 
 use crate::ir::{Automaton, Expr, ExprKind, Model, Place};
-use runtime_sim::device::{Direction, Stop};
 use std::collections::BTreeSet;
 
 /// Sets [`Automaton::masked`] of every automaton.
@@ -17,12 +16,7 @@ fn masked(automaton: &Automaton) -> Vec<usize> {
     for expr in automaton.properties.iter().flat_map(|property| property.exprs()) {
         ports(automaton, expr, &mut read);
     }
-    let is_masked = |number: &usize| {
-        let port = &automaton.device.ports[*number];
-        let is_hold = automaton.device.is_commanded() && port.name == "hold";
-        port.direction == Direction::Output && port.stop != Stop::Hold && !is_hold
-    };
-    read.into_iter().filter(is_masked).collect()
+    automaton.outputs_that_stop().filter(|port| read.contains(port)).collect()
 }
 
 fn ports(automaton: &Automaton, expr: &Expr, read: &mut BTreeSet<usize>) {

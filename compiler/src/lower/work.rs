@@ -24,7 +24,7 @@ fn of_scans(system: &System, id: AutomatonId) -> Option<Diagnostic> {
     let mut members = vec![0; automaton.roles.len()];
     for instance in system.instances.iter().filter(|instance| instance.automaton == id) {
         for (most, rows) in members.iter_mut().zip(&instance.roles) {
-            *most = rows.len().max(*most as usize) as u64;
+            *most = (*most).max(rows.len() as u64);
         }
     }
     let work = Work::new(&system.model, automaton, members.clone());

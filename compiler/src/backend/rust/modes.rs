@@ -113,7 +113,7 @@ impl Context<'_> {
                 texts.push(format!("self.{name} = new.{name};"));
             }
         }
-        for port in automaton.outputs_that_begin_anew() {
+        for port in automaton.outputs_that_stop() {
             let name = &self.own().ports[port];
             texts.push(format!("self.outputs.{name} = new.outputs.{name};"));
         }

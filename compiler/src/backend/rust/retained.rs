@@ -156,7 +156,7 @@ fn values(context: &Context) -> Vec<(String, Type)> {
 
 /// From the beginning no earlier command is finished.
 fn commands_at_the_beginning(context: &Context, of: &Automaton) -> Option<String> {
-    let retained = of.outputs_that_begin_anew().filter(|port| of.retained.ports.contains(port));
+    let retained = of.outputs_that_stop().filter(|port| of.retained.ports.contains(port));
     let anew = retained.map(|number| {
         let value = automaton::first_value(context, &of.device.ports[number]);
         format!("self.outputs.{} = {value};", context.own().ports[number])

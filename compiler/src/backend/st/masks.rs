@@ -1,9 +1,10 @@
 //! Properties see outputs as they are put out: stop values while a robot is stopped, those of the panel by hand.
 
 use super::block::{Candidate, Origin};
-use super::code::{Arm, Ex, Stmt, and, assign, name, not, when};
+use super::code::{Stmt, and, name, not};
 use super::context::Lowering;
 use super::declaration::{Variable, constants};
+use super::modes::PutOut;
 use super::property::own_stop;
 use super::value::stop_value;
 use crate::ir::ByHand;
@@ -20,46 +21,26 @@ impl Masks {
     pub fn new(lowering: &mut Lowering) -> Self {
         let automaton = lowering.automaton();
         let modes = automaton.modes.as_ref();
-        let mut set = Vec::new();
-        let (mut running, mut by_hand, mut with_command, mut stopped) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut put, mut set) = (PutOut::default(), Vec::new());
         for port in &automaton.masked {
-            let declared = &automaton.device.ports[*port];
-            let Some(stop) = stop_value(declared).map(constants) else { continue };
+            let Some(stop) = stop_value(&automaton.device.ports[*port]).map(constants) else { continue };
             let published = modes.and_then(|modes| modes.published[*port].as_ref());
+            let panel = match published {
+                Some(ByHand::Panel(value)) => Some(lowering.value(value, &mut Vec::new())),
+                _ => None,
+            };
             for (output, stop) in lowering.own().ports[*port].iter().zip(stop) {
                 let input = lowering.free_name(&format!("{output}_set"));
-                running.push(assign(output, name(&input)));
-                stopped.push(assign(output, stop.clone()));
-                by_hand.push(assign(output, stop));
-                if let Some(ByHand::Argument) = published {
-                    with_command.push(assign(output, name(&input)));
-                }
+                put.add(output, [name(&input), stop], published, panel.clone());
                 set.push((output.clone(), input));
             }
-            if let Some(ByHand::Panel(value)) = published {
-                let mut before = Vec::new();
-                let value = lowering.value(value, &mut before);
-                let output = &lowering.own().ports[*port][0];
-                by_hand.pop();
-                by_hand.push(assign(output, value));
-            }
-        }
-        if set.is_empty() {
-            return Self { statements: Vec::new(), set };
         }
         let local = |local: usize| name(&lowering.own().locals[local][0]);
         let moved = modes.map(|modes| not(local(modes.moved_by_hand)));
         let runs = and([not(own_stop())].into_iter().chain(moved).collect());
-        let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
-        let mut arms = vec![arm(runs, running)];
-        arms.extend(modes.and_then(|modes| modes.by_hand).map(|by| arm(local(by), by_hand)));
-        let about = "Properties see what is put out.";
-        let mut statements = vec![Stmt::Comment(about.into()), Stmt::If(arms, stopped)];
-        if let Some(commanded) = modes.and_then(|modes| modes.commanded)
-            && !with_command.is_empty()
-        {
-            statements.push(when(local(commanded), with_command));
+        let mut statements = put.statements(runs, modes, local);
+        if !statements.is_empty() {
+            statements.insert(0, Stmt::Comment("Properties see what is put out.".into()));
         }
         Self { statements, set }
     }

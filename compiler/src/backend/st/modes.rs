@@ -62,7 +62,7 @@ impl Lowering<'_> {
     fn begin_anew(&self, kept: &[&Candidate], globals: &Globals) -> Vec<Stmt> {
         let automaton = self.automaton();
         let own_ports = || self.own().ports.iter();
-        let anew = self.outputs_that_begin_anew();
+        let anew = self.outputs_that_stop();
         let begins = |candidate: &&&Candidate| {
             let name = &candidate.variable.name;
             let is_port = own_ports().flatten().any(|port| port == name);
@@ -81,8 +81,8 @@ impl Lowering<'_> {
     }
 
     /// The variables of outputs that are as at power-up when the robot begins anew.
-    pub fn outputs_that_begin_anew(&self) -> Vec<&String> {
-        self.automaton().outputs_that_begin_anew().flat_map(|port| &self.own().ports[port]).collect()
+    pub fn outputs_that_stop(&self) -> Vec<&String> {
+        self.automaton().outputs_that_stop().flat_map(|port| &self.own().ports[port]).collect()
     }
 
     /// The initial values of its own elements of those arrays of cells.
@@ -153,6 +153,45 @@ pub fn by_hand(shared: Shared, robot: usize, by_hand: &ByHand) -> Option<Vec<Ex>
     match &value.kind {
         ExprKind::MakePoint(parts) => parts.iter().map(of).collect(),
         _ => Some(vec![of(value)?]),
+    }
+}
+
+/// What is put out at outputs with stop values, by what decides it.
+#[derive(Default)]
+pub struct PutOut {
+    running: Vec<Stmt>,
+    by_hand: Vec<Stmt>,
+    with_command: Vec<Stmt>,
+    stopped: Vec<Stmt>,
+}
+
+impl PutOut {
+    /// `to` gets what the steps have set, the stop value, or what the panel gives, if that is for this output.
+    pub fn add(&mut self, to: &str, [set, stop]: [Ex; 2], published: Option<&ByHand>, panel: Option<Ex>) {
+        if let Some(ByHand::Argument) = published {
+            self.with_command.push(assign(to, set.clone()));
+        }
+        self.by_hand.push(assign(to, panel.unwrap_or_else(|| stop.clone())));
+        self.running.push(assign(to, set));
+        self.stopped.push(assign(to, stop));
+    }
+
+    /// `local` is the value of a local of the type.
+    pub fn statements(self, runs: Ex, modes: Option<&Modes>, local: impl Fn(usize) -> Ex) -> Vec<Stmt> {
+        if self.running.is_empty() {
+            return Vec::new();
+        }
+        let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
+        let mut arms = vec![arm(runs, self.running)];
+        let by_hand = modes.and_then(|modes| modes.by_hand);
+        arms.extend(by_hand.map(|by_hand| arm(local(by_hand), self.by_hand)));
+        let mut statements = vec![Stmt::If(arms, self.stopped)];
+        if let Some(commanded) = modes.and_then(|modes| modes.commanded)
+            && !self.with_command.is_empty()
+        {
+            statements.push(when(local(commanded), self.with_command));
+        }
+        statements
     }
 }
 

@@ -10,13 +10,12 @@ use super::externals::Externals;
 use super::filling::Filling;
 use super::globals::{Globals, Table};
 use super::image::Image;
-use super::modes;
+use super::modes::{self, PutOut};
 use super::names::{ELEMENT, ROUNDED};
 use super::property;
 use super::restart;
 use super::value::{first_value, stop_value};
 use super::watchdog;
-use crate::ir::ByHand;
 use runtime_sim::device::Direction;
 use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
@@ -198,10 +197,7 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
         (true, None) => and(vec![name("running"), not(is_stopped())]),
         (false, None) => name("running"),
     };
-    let mut by_hand = Vec::new();
-    let mut with_command = Vec::new();
-    let mut running = Vec::new();
-    let mut stopped = Vec::new();
+    let mut put = PutOut::default();
     let mut always = Vec::new();
     for (i, port) in
         automaton.device.ports.iter().enumerate().filter(|(_, p)| p.direction == Direction::Output)
@@ -221,32 +217,13 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
                 (None, None) => {}
                 (value, Some(stop)) => {
                     let first = constants(first_value(port.ty))[part].clone();
-                    let value = value.unwrap_or(first);
-                    if let Some(ByHand::Argument) = published {
-                        with_command.push(assign(global, value.clone()));
-                    }
-                    if modes.is_some() {
-                        let given = panel.as_ref().map_or(stop.clone(), |panel| panel[part].clone());
-                        by_hand.push(assign(global, given));
-                    }
-                    running.push(assign(global, value));
-                    stopped.push(assign(global, stop));
+                    let given = panel.as_ref().map(|panel| panel[part].clone());
+                    put.add(global, [value.unwrap_or(first), stop], published, given);
                 }
             }
         }
     }
-    if !running.is_empty() {
-        let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
-        let mut arms = vec![arm(runs(), running)];
-        let is_by_hand = modes.and_then(|modes| modes.by_hand);
-        arms.extend(is_by_hand.map(|local| arm(modes::field(shared, robot, local), by_hand)));
-        always.push(Stmt::If(arms, stopped));
-    }
-    if let Some(commanded) = modes.and_then(|modes| modes.commanded)
-        && !with_command.is_empty()
-    {
-        always.push(when(modes::field(shared, robot, commanded), with_command));
-    }
+    always.extend(put.statements(runs(), modes, |local| modes::field(shared, robot, local)));
     always
 }
 

@@ -117,7 +117,7 @@ impl Lowering<'_> {
         }
         let (stays, begins): (Vec<&Candidate>, Vec<&Candidate>) =
             kept.iter().copied().partition(|candidate| candidate.variable.is_retained);
-        let outputs = self.outputs_that_begin_anew();
+        let outputs = self.outputs_that_stop();
         let commands: Vec<&Candidate> =
             stays.iter().filter(|candidate| outputs.contains(&&candidate.variable.name)).copied().collect();
         let mut cold = Vec::new();
