@@ -368,6 +368,7 @@ impl From<StepOrders> for autogen_search::successor::Orders {
 }
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", |format| format.hide(true)))]
 pub struct GraphOptions {
     #[command(flatten)]
     pub input: InputOptions,

@@ -13,6 +13,8 @@ const Figures = (() => {
     const found = violation ? `${violation.text}: at ${violation.at_s.toFixed(2)} s; the run ends: ` : '';
     verdict.textContent = found + results.reason;
     verdict.className = 'verdict ' + (results.finished && !violation ? 'good' : 'wrong');
+    byId('notes').append(...(results.notes || []).map((note) => element('p', '', `Note: ${note}`)));
+    byId('notes').hidden = !(results.notes || []).length;
     const legs = raw.limit.machines, whole = legs.reduce((sum, { s }) => sum + s, 0);
     const contacts = (results.collisions || []).length;
     const figures = [

@@ -6,14 +6,16 @@ const Plan = (() => {
   const { canvas, view, size, toScreen, toWorld, trace, paint, label } = Pen;
   const { still, laneBand, floorOf, boxes, extent, isBridge, OVERHEAD } = Scene;
   const drawnUntil = raw.drawn_until_s === null ? Infinity : raw.drawn_until_s * 1000;
+  /* Pixels over the plan for the name of the topmost machine. */
+  const NAME = 18;
   const shown = new Map();
   let context = null, trail = null;
 
   function fit() {
     const [w, h] = [0, 1].map((i) => (extent.high[i] - extent.low[i]) * 1.06 + 0.1);
-    view.scale = Math.min(size[0] / w, size[1] / h, 900);
+    view.scale = Math.min(size[0] / w, Math.max(size[1] - NAME, 1) / h, 900);
     view.x = (extent.low[0] + extent.high[0]) / 2;
-    view.y = (extent.low[1] + extent.high[1]) / 2;
+    view.y = (extent.low[1] + extent.high[1]) / 2 + NAME / 2 / view.scale;
     view.isFitted = true;
   }
 

@@ -28,6 +28,8 @@ pub struct Outcome {
     pub trace_hash: Option<String>,
     /// A list; of a point that was refused.
     pub diagnostics: Value,
+    /// What the run did not come to, a line each.
+    pub notes: Vec<String>,
     pub status: Status,
 }
 
@@ -46,6 +48,7 @@ impl Outcome {
             simulated_s: None,
             trace_hash: None,
             diagnostics: json!([]),
+            notes: Vec::new(),
             status: Status::NotReached,
         }
     }
@@ -69,6 +72,7 @@ impl Outcome {
         }
         self.simulated_s = Some(report.simulated_s);
         self.trace_hash = Some(report.trace_hash_text());
+        self.notes.clone_from(&report.notes);
         self.status = match self.finished {
             true => Status::Done,
             false if self.reason.starts_with("bug: ") => Status::Bug,
@@ -112,7 +116,8 @@ impl Outcome {
             ("trace_hash", json!(self.trace_hash)),
             ("diagnostics", self.diagnostics.clone()),
         ];
-        all.into_iter().map(|(key, value)| (key.into(), value)).collect()
+        let notes = (!self.notes.is_empty()).then(|| ("notes", json!(self.notes)));
+        all.into_iter().chain(notes).map(|(key, value)| (key.into(), value)).collect()
     }
 
     /// A line of a part: what names the run, what came of it, the exit status of a sweep of this run alone, and a hash of
@@ -150,6 +155,10 @@ impl Outcome {
             cut_orders: number("cut_orders").unwrap_or(0),
             simulated_s: value("simulated_s").as_f64(),
             trace_hash: value("trace_hash").as_str().map(String::from),
+            notes: match value("notes") {
+                Value::Array(notes) => notes.iter().filter_map(Value::as_str).map(String::from).collect(),
+                _ => Vec::new(),
+            },
             diagnostics: match value("diagnostics") {
                 list @ Value::Array(_) => list.clone(),
                 _ => json!([]),

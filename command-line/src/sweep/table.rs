@@ -21,6 +21,25 @@ pub struct Table<'a> {
     measured: Option<Measured>,
     /// The rows so far, if they are wanted again.
     kept: Option<Vec<Value>>,
+    noted: Noted,
+}
+
+/// The rows with notes.
+#[derive(Default)]
+struct Noted {
+    rows: usize,
+    /// The point of the first one, and its first note.
+    first: Option<(String, String)>,
+}
+
+impl Noted {
+    fn text(&self) -> Option<String> {
+        let (point, note) = self.first.as_ref()?;
+        Some(match self.rows {
+            1 => format!("note on {point}: {note}"),
+            rows => format!("note on {rows} rows, the first {point}: {note}"),
+        })
+    }
 }
 
 /// A column that says which point a row is.
@@ -65,6 +84,7 @@ impl<'a> Table<'a> {
             grid,
             measured,
             kept: None,
+            noted: Noted::default(),
         })
     }
 
@@ -128,6 +148,11 @@ impl<'a> Table<'a> {
     }
 
     pub fn row(&mut self, row: &Row) {
+        if let Some(note) = row.outcome.notes.first() {
+            let cells: Vec<String> = self.names.iter().map(|name| (name.cell)(row)).collect();
+            self.noted.rows += 1;
+            self.noted.first.get_or_insert_with(|| (cells.join(" "), note.clone()));
+        }
         let beside = self.beside(row);
         if self.kept.is_some() {
             let json = self.json(row, self.columns(row, beside));
@@ -193,7 +218,11 @@ impl<'a> Table<'a> {
         if self.format == TableFormat::Text
             && let Some((rms, ratios)) = rms
         {
-            say!("\nRMS of the difference between the {ratios} ratios and 1: {:.1} %", rms * 100.0);
+            let of = if ratios == 1 { "the ratio".into() } else { format!("the {ratios} ratios") };
+            say!("\nRMS of the difference between {of} and 1: {:.1} %", rms * 100.0);
+        }
+        if let Some(note) = self.noted.text().filter(|_| self.format == TableFormat::Text && !self.quiet) {
+            say!("\n{note}");
         }
         if let Some(unused) = self.measured.as_ref().and_then(Measured::unused) {
             complain!("{unused}");

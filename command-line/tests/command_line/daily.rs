@@ -152,6 +152,15 @@ fn a_line_of_which_nothing_is_asked_says_so() {
     let notes = &json(&output)["notes"];
     assert_eq!(notes[0], late);
     assert!(notes[1].as_str().expect("a text").starts_with(note), "{}", said(&output));
+    let sweep = ["sweep", &layout, "--scenario", "none.json", "--set", "agv.capacity=2,4"];
+    let output = autogen(&folder, &sweep);
+    assert!(
+        said(&output).ends_with(&format!("\nnote on 2 rows, the first default 2: {late}\n")),
+        "{}",
+        said(&output)
+    );
+    let output = autogen(&folder, &[&sweep[..], &["--format", "json"]].concat());
+    assert_eq!(json(&output)["rows"][1]["notes"], serde_json::json!([late]));
 }
 
 #[test]

@@ -20,6 +20,13 @@ impl Decoder {
         let first_s = first_s.unwrap_or(every_s);
         let seed = find(members, "seed").and_then(|j| self.whole(j, "seed", 0..=u32::MAX)).unwrap_or(SEED);
         let Some(items) = find(members, "items") else {
+            if let Some(times) = members.iter().find(|m| m.key.value == "times") {
+                self.report(
+                    Diagnostic::new("E0133", times.key.span, "\"times\" has no effect without \"items\"")
+                        .note("it says how often a list of parts is repeated; here autogen makes the list from the orders")
+                        .help("remove \"times\", or add \"items\""),
+                );
+            }
             let surplus = find(members, "surplus").and_then(|j| self.fraction(j)).unwrap_or(SURPLUS);
             return Some(Supply {
                 span: json.span,
