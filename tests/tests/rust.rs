@@ -363,10 +363,19 @@ fn the_line_runs_as_on_the_executor() {
     assert_eq!(report.trim_end(), expected.to_json());
     assert_eq!(found.len(), hashes.len());
     links_without_a_panic(&workspace);
+    workspace.put("controllers/examples/document.rs", &program_of_the_document());
+    workspace.cargo(&["check", "--quiet", "-p", "controllers", "--example", "document"]);
     workspace.put("controllers/tests/restore.rs", RESTORE);
     workspace.cargo(&["test", "--quiet", "-p", "controllers", "--test", "restore"]);
     workspace.put("adapters/tests/images.rs", IMAGES);
     workspace.cargo(&["test", "--quiet", "-p", "adapters", "--test", "images"]);
+}
+
+/// What docs/rust.md shows, with an end.
+fn program_of_the_document() -> String {
+    let text = std::fs::read_to_string("../docs/rust.md").expect("the document");
+    let program = text.split("```rust\n").nth(1).and_then(|rest| rest.split("```").next());
+    format!("#![allow(dead_code)]\n{}\nfn main() {{}}\n", program.expect("a program"))
 }
 
 /// Words that are not those of the line, or of no scan of it: it begins with initial values and a fault, or with words

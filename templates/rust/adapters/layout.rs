@@ -236,13 +236,25 @@ impl Layout {
         system.scan(inputs, &self.wiring, &mut self.robots{% if uses_cells %}, &mut self.cells{% endif %})
     }
 
+    {%- if retains %}
+    /// [`System::retain`] of these robots.
+    pub fn retain(&self, system: &System, put: &mut dyn FnMut(f64)) {
+        system.retain(&self.wiring, &self.robots, {% if has_cells %}&self.cells, {% endif %}put);
+    }
+
+    /// [`System::restore`] of these robots.
+    pub fn restore(&mut self, system: &mut System, words: &mut dyn FnMut() -> Option<f64>) {
+        system.restore(&self.wiring, &mut self.robots, {% if has_cells %}&mut self.cells, {% endif %}words);
+    }
+
+    {% endif %}
     /// Power was lost and is back: retained values are kept, all others are the initial ones.
     pub fn power_up(&mut self, system: &mut System) {
         {%- if retains %}
         let mut words = Vec::new();
-        system.retain(&self.wiring, &self.robots, {% if has_cells %}&self.cells, {% endif %}&mut |word| words.push(word));
+        self.retain(system, &mut |word| words.push(word));
         let mut words = words.into_iter();
-        system.restore(&self.wiring, &mut self.robots, {% if has_cells %}&mut self.cells, {% endif %}&mut || words.next());
+        self.restore(system, &mut || words.next());
         {%- else %}
         *system = System::new();
         for robot in &mut self.robots {
