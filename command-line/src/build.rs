@@ -182,7 +182,7 @@ impl Built {
         let system = &project.system;
         put(files, &self.copies);
         write_rust(system, sources, &mut Folder { name: "rust", sink: files });
-        put(&mut Folder { name: "graph", sink: files }, &dot::files(system, &project.edges));
+        put(&mut Folder { name: "graph", sink: files }, &dot::files(project));
         files.file("graph/plan.svg", &plan::svg(&project.plant, &project.edges));
         sdf::write(&project.name, &project.plant, &mut Folder { name: "world", sink: files });
         files.file("rust/commissioning/data/line.txt", &project.plant.to_text());

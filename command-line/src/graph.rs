@@ -25,7 +25,7 @@ pub fn run(options: &GraphOptions) -> Status {
         say_part!("{}", plan::svg(&project.plant, &project.edges));
         return Status::Done;
     }
-    let files = dot::files(&project.system, &project.edges);
+    let files = dot::files(&project);
     let graph = [options.of.clone(), naming::snake(&options.of)]
         .iter()
         .find_map(|name| files.get(&format!("{name}.dot")));

@@ -2,10 +2,11 @@
 
 use crate::line::{Line, LineButton};
 use crate::plant::Plant;
-use crate::report::seconds;
+use crate::report::{Outcome, seconds};
 
-/// What the scenario has go wrong, or somebody do, that did not happen in so many scans, a line each.
-pub fn not_reached(line: &Line, plant: &Plant, scans: u64) -> Vec<String> {
+/// What the scenario has go wrong, or somebody do, that did not happen, a line each.
+pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String> {
+    let scans = outcome.scans;
     let scenario = &line.scenario;
     let name = |machine: usize| &line.machines[machine].name;
     let part = |machine: usize, part: usize| {
@@ -21,9 +22,11 @@ pub fn not_reached(line: &Line, plant: &Plant, scans: u64) -> Vec<String> {
         counted(what, number, plant.commands(machine), "commands")
     };
     let end_s = seconds(scans, line.scan_ms);
-    let late = |what: String, at_s: f64| {
-        format!("not reached: {what} at {at_s:.2} s, as the run ended at {end_s:.2} s; give an earlier time")
+    let end = match outcome.fault {
+        Some(_) => format!("as the run ended in the fault at {end_s:.2} s"),
+        None => format!("as the run ended at {end_s:.2} s; give an earlier time"),
     };
+    let late = |what: String, at_s: f64| format!("not reached: {what} at {at_s:.2} s, {end}");
     let timed = |what: String, at: u64| (at >= scans).then(|| late(what, seconds(at, line.scan_ms)));
 
     let slips = scenario.slips.iter().map(|slip| {

@@ -146,7 +146,7 @@ impl Report {
             place: plant.place(id).map_or_else(|| "-".into(), point_text),
         });
         let stands = outcome.stands_since.map(|scan| stands_text(seconds(scan)));
-        let notes = stands.into_iter().chain(notes::not_reached(line, plant, outcome.scans));
+        let notes = stands.into_iter().chain(notes::not_reached(line, plant, &outcome));
         Self {
             finished: outcome.finished,
             reason: outcome.reason,

@@ -11,11 +11,19 @@ pub struct Operator {
     /// It has given `start` at least once.
     gave_start: bool,
     last: SystemInputs,
+    /// The next scan whose inputs were not given yet.
+    next: u64,
 }
 
 impl Operator {
     pub fn new() -> Self {
-        Self { had_permit: true, owes_start: false, gave_start: false, last: SystemInputs::default() }
+        Self {
+            had_permit: true,
+            owes_start: false,
+            gave_start: false,
+            last: SystemInputs::default(),
+            next: 0,
+        }
     }
 
     pub fn inputs(&mut self, scan: u64, scenario: &Scenario) -> SystemInputs {
@@ -29,6 +37,7 @@ impl Operator {
             self.gave_start = true;
         }
         self.had_permit = run_permit;
+        self.next = scan + 1;
         self.last = SystemInputs {
             run_permit,
             start: start || scenario.presses(LineButton::Start, scan),
@@ -37,10 +46,12 @@ impl Operator {
         self.last
     }
 
-    /// Whether the permit is there in this scan, not before that of the last inputs, and all edges of `start` were given.
+    /// Whether the permit is there before this scan, and all edges of `start` were given by then.
     pub fn has_started(&self, scan: u64, scenario: &Scenario) -> bool {
         let mut later = self.clone();
-        later.inputs(scan, scenario);
+        if later.next < scan {
+            later.inputs(scan - 1, scenario);
+        }
         later.had_permit && later.gave_start && !later.owes_start
     }
 

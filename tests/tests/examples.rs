@@ -23,7 +23,7 @@ fn generated(example: &str) -> Vec<(String, String)> {
         })
         .collect();
     files.push(("parameters.txt".into(), rust::parameters_text(&project.system)));
-    files.extend(dot::files(&project.system, &project.edges));
+    files.extend(dot::files(&project));
     files
 }
 

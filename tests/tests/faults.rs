@@ -608,6 +608,12 @@ fn what_a_run_does_not_come_to_is_told() {
             "not reached: press of `reset` at 100.00 s, as the run ended at 60.00 s; give an earlier time",
         ]
     );
+    // An earlier time would not help: only a reset after the fault has an effect.
+    let guarded = format!("{automaton} invariant not pressed;");
+    let scenario = r#""operator": [{"robot": "it", "part": "key", "at_s": 2, "for_s": 1},
+        {"part": "reset", "at_s": 9, "for_s": 0.5}]"#;
+    let notes = run(&line(device, &guarded, scenario), |_| {}).report.notes;
+    assert_eq!(notes, ["not reached: press of `reset` at 9.00 s, as the run ended in the fault at 2.01 s"]);
     let faults = r#""slow": [{"robot": "mill", "part": "cycle", "cycle": 9, "longer_s": 1}],
         "slips": [{"robot": "arm", "pick": 1, "after_s": 900}, {"robot": "arm", "pick": 50, "after_s": 1}]"#;
     assert_eq!(
@@ -635,6 +641,7 @@ fn a_line_that_stands_for_want_of_an_edge_is_told() {
     assert_eq!(notes(r#""at_s": 0.5"#, "2"), stands("2.00"));
     assert_eq!(notes(r#""at_s": 0"#, "2"), stands("0.00"));
     assert_eq!(notes(r#""at_s": 0.5, "for_s": 1"#, "2"), Vec::<String>::new());
-    // The pause lasts to the end of the run.
+    // The pause lasts to the end of the run, and to the last scan before it.
+    assert_eq!(notes(r#""at_s": 0.5, "for_s": 1"#, "58.99"), Vec::<String>::new());
     assert_eq!(notes(r#""at_s": 0.5"#, "59.5"), Vec::<String>::new());
 }

@@ -131,6 +131,36 @@ fn a_place_that_cannot_be_found_is_told() {
     }
 }
 
+/// A layout writes its types in small letters, so it can name only automata whose words begin with a capital letter.
+#[test]
+fn an_automaton_that_no_type_names_is_to_be_renamed() {
+    for (automaton, kind, other) in [
+        ("mm", "mm", "Mm"),
+        ("pushButton", "push_button", "PushButton"),
+        ("Filler_2", "filler_2", "Filler2"),
+        ("Push_Button", "push_button", "PushButton"),
+        ("Push_Button", "push__button", "PushButton"),
+    ] {
+        let spec = |name: &str| {
+            format!(
+                "device bench {{ part key = button {{}}; in on: bool = key.on; }}
+                automaton {name} on bench {{ initial state S {{ when on -> S {{}} }} }}"
+            )
+        };
+        let told = |name: &str, kind: &str| -> Vec<String> {
+            let layout = format!(r#"{{"robots": [{{"name": "it", "type": "{kind}", "pose": [0, 0, 0]}}]}}"#);
+            let texts = Texts { specs: vec![spec(name)], ..Texts::of_layout(layout) };
+            texts.compile().diagnostics.into_iter().map(|d| format!("{} {}", d.code, d.help)).collect()
+        };
+        let help = told(automaton, kind);
+        let start = format!("E0126 a layout cannot name the automaton `{automaton}`: ");
+        let new_type = help[0].split('"').nth(1).expect("a type");
+        let end = format!("rename it `{other}`, whose type is \"{new_type}\"");
+        assert!(help[0].starts_with(&start) && help[0].ends_with(&end), "{help:?}");
+        assert_eq!(told(other, new_type), Vec::<String>::new());
+    }
+}
+
 /// Two nodes and what a vehicle on them is told.
 #[test]
 fn routes_that_are_wrong_are_told() {

@@ -62,6 +62,7 @@ mod vehicles;
 mod verdicts;
 mod verify;
 mod visits;
+mod waiting;
 mod ways;
 mod why;
 mod world;

@@ -147,6 +147,12 @@ fn scenarios_know_the_machines_of_their_layout() {
     assert_eq!(labels("\"supply\": {\"items\": {\"^"), ["belt", "station"]);
     assert_eq!(labels("\"faults\": {\"slips\": [{\"robot\": \"^"), ["arm"]);
     assert_eq!(labels("\"faults\": {\"answers\": [{\"robot\": \"^"), ["arm", "belt"]);
+    assert_eq!(labels("\"faults\": {\"jams\": [{\"robot\": \"^"), ["arm", "belt", "station"]);
+    assert_eq!(labels("\"faults\": {\"jams\": [{\"robot\": \"arm\", \"part\": \"^"), ["arm"]);
+    assert_eq!(labels("\"faults\": {\"slow\": [{\"robot\": \"^"), [] as [&str; 0]);
+    assert!(labels("\"faults\": {\"sensors\": [{\"robot\": \"^").contains(&"belt".into()));
+    let signals = labels("\"faults\": {\"sensors\": [{\"robot\": \"belt\", \"signal\": \"^");
+    assert!(signals.contains(&"ready".into()) && !signals.contains(&"verb".into()), "{signals:?}");
     // A scenario has either of two, never both.
     let found = labels("\"supply\": {\"surplus\": [1, 3], ^");
     assert_eq!(found, ["every_s", "first_s", "seed", "times"]);

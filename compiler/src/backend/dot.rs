@@ -1,19 +1,22 @@
 //! Graphs in the language of Graphviz: who hands over to whom, and the automata.
 
 use super::Files;
-use crate::connect::Edge;
-use crate::ir::{Automaton, System};
+use crate::ir::Automaton;
+use crate::lower::Project;
 use crate::naming::{self, Scope};
+use runtime_sim::plant::By;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Names of graphs that are not those of an automaton.
 pub const CONNECTIVITY: &str = "connectivity";
 pub const PLAN: &str = "plan";
 
-/// `connectivity.dot`, and a file for each automaton. Edges are between instances.
-pub fn files(system: &System, edges: &[Edge]) -> Files {
+/// `connectivity.dot`, and a file for each automaton.
+pub fn files(project: &Project) -> Files {
+    let system = &project.system;
     let mut files = Files::new();
-    files.insert(format!("{CONNECTIVITY}.dot"), connectivity(system, edges));
+    files.insert(format!("{CONNECTIVITY}.dot"), connectivity(project));
     let mut names = Scope::new(&[CONNECTIVITY, PLAN]);
     for automaton in &system.model.automata {
         let name = names.take(naming::snake(&automaton.name));
@@ -22,7 +25,7 @@ pub fn files(system: &System, edges: &[Edge]) -> Files {
     files
 }
 
-fn connectivity(system: &System, edges: &[Edge]) -> String {
+fn connectivity(Project { system, edges, transfers, .. }: &Project) -> String {
     let mut text = String::from("digraph connectivity {\n    rankdir = LR;\n    node [shape = box];\n");
     for instance in &system.instances {
         let automaton = &system.model.automaton(instance.automaton).name;
@@ -36,6 +39,18 @@ fn connectivity(system: &System, edges: &[Edge]) -> String {
     for edge in edges {
         let (from, to) = (&system.instances[edge.from].name, &system.instances[edge.to].name);
         let _ = writeln!(text, "    {} -> {} [label = \"{:.3} m\"];", quoted(from), quoted(to), edge.margin);
+    }
+    let between = transfers.iter().filter(|transfer| transfer.from.0 != transfer.to.0);
+    let conveyed: BTreeSet<[usize; 2]> = between
+        .clone()
+        .filter(|transfer| !matches!(transfer.by, By::Fall))
+        .map(|transfer| [transfer.from.0, transfer.to.0])
+        .collect();
+    let all: BTreeSet<[usize; 2]> = between.map(|transfer| [transfer.from.0, transfer.to.0]).collect();
+    for ends in all {
+        let label = if conveyed.contains(&ends) { "conveyor" } else { "may fall" };
+        let [from, to] = ends.map(|machine| quoted(&system.instances[machine].name));
+        let _ = writeln!(text, "    {from} -> {to} [label = \"{label}\", style = dashed];");
     }
     text + "}\n"
 }

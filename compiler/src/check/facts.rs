@@ -23,6 +23,10 @@ impl Interval {
         Self { lo: self.lo.max(other.lo), hi: self.hi.min(other.hi) }
     }
 
+    pub fn with(self, other: Interval) -> Self {
+        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
+    }
+
     pub fn is_within(self, other: Interval) -> bool {
         self.lo >= other.lo && self.hi <= other.hi
     }
@@ -212,15 +216,27 @@ impl Facts {
         }
     }
 
-    /// Forgets what a write to a place may have changed, then knows the new value's interval.
+    /// Takes in what a write to a place may have changed, then knows the new value's interval.
     pub fn write(&mut self, place: &Place, ty: Scalar, value: Interval) {
+        let others = self.elements(place);
         self.forget(place);
+        // Another element, or the same one by another index.
+        for (key, known) in others {
+            self.known.insert(key, known.with(value));
+        }
         let expr = Expr { ty, kind: ExprKind::Read(place.clone()) };
         // After `a[a[0]] := v` the place `a[a[0]]` may be another one, also if a definition is `a[0]`.
-        let is_one = |key: String| key.matches(&marker(place)).count() == 1 && !key.contains(DEFINITION);
-        if key(&expr).is_some_and(is_one) {
-            self.narrow(&expr, value);
+        if let Some(key) = key(&expr).filter(|key| is_element(key, &marker(place))) {
+            self.known.insert(key, value);
         }
+    }
+
+    /// What is known of the elements of a variable whose indices it does not change.
+    fn elements(&self, place: &Place) -> Vec<(String, Interval)> {
+        let written = marker(place);
+        let known =
+            self.known.iter().filter(|(key, _)| key.starts_with(&written) && is_element(key, &written));
+        known.map(|(key, known)| (key.clone(), *known)).collect()
     }
 
     /// Forgets what was known of a variable, and of all definitions: each may read it.
@@ -304,6 +320,11 @@ fn index_key(expr: &Expr) -> Option<String> {
         ExprKind::Constant(Value::Int(v)) => Some(v.to_string()),
         _ => key(expr),
     }
+}
+
+/// Whether no index in the key of an element of a variable reads the variable itself, or a definition.
+fn is_element(key: &str, marker: &str) -> bool {
+    key.matches(marker).count() == 1 && !key.contains(DEFINITION)
 }
 
 /// What every key that reads this variable contains.

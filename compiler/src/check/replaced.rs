@@ -40,16 +40,22 @@ impl Checker<'_> {
         };
         let is_implemented =
             |name: &str| trees.automata.iter().flat_map(|a| &a.implements).any(|i| i.interface.value == name);
-        let lonely: Vec<Name> = (trees.interfaces.iter().map(|i| &i.name))
+        let roles = || trees.automata.iter().flat_map(|automaton| &automaton.roles);
+        let asked = |name: &Name| {
+            let mut names = roles().flat_map(|role| [&role.interface].into_iter().chain(&role.also));
+            names.find(|asked| asked.value == name.value).map_or(name.span, |asked| asked.span)
+        };
+        let lonely: Vec<(Name, Span)> = (trees.interfaces.iter().map(|i| &i.name))
             .filter(|name| is_read(&name.value) && !is_implemented(&name.value))
-            .cloned()
+            .map(|name| (name.clone(), asked(name)))
             .collect();
-        for name in lonely {
+        for (name, asked) in lonely {
             let message = format!("no automaton has the interface `{}`, which a role asks for", name.value);
             let had = self.declarations.replaced.iter().find(|r| r.interfaces.contains(&name.value));
             let Some(had) = had else {
                 let help = format!("write `automaton ... is {}`", name.value);
-                self.report(Diagnostic::new("E0304", name.span, message).help(help));
+                let lonely = Diagnostic::new("E0304", name.span, message).help(help);
+                self.report(lonely.other(asked, "asked for here"));
                 continue;
             };
             let by = &had.by;

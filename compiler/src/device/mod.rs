@@ -256,6 +256,12 @@ impl Device {
         wanted.map(|(number, part)| (number, part.name.value.as_str()))
     }
 
+    /// Names of the parts that can jam.
+    pub fn jamming(&self) -> impl Iterator<Item = &str> {
+        let jamming = self.program.parts.iter().filter(|part| part.schema.can_jam);
+        jamming.map(|part| part.name.value.as_str())
+    }
+
     /// Whether one of its parts is of this primitive.
     pub fn has(&self, primitive: &str) -> bool {
         self.program.parts.iter().any(|part| part.schema.name == primitive)

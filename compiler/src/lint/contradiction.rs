@@ -2,11 +2,11 @@
 
 use super::implies::constant;
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Automaton, Clause, Expr, ExprKind, Operator, Scalar, Transition, Value};
+use crate::ir::{Automaton, Clause, Expr, ExprKind, KIND, Model, Operator, Scalar, Transition, Value};
 
-pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
+pub fn check(model: &Model, automaton: &Automaton, found: &mut Vec<Diagnostic>) {
     for transition in automaton.states.iter().flat_map(|state| &state.transitions) {
-        if never_holds(automaton, transition) {
+        if never_holds(model, automaton, transition) {
             let message = format!("`{}` never fires: its conditions exclude each other", transition.title());
             found.push(
                 Diagnostic::new("W0112", transition.place, message)
@@ -18,8 +18,8 @@ pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
 }
 
 /// Never says so of a guard that may hold. One that is `false` as it stands is meant.
-pub fn never_holds(automaton: &Automaton, transition: &Transition) -> bool {
-    let mut literals = Literals { automaton, all: Vec::new(), left: MOST };
+pub fn never_holds(model: &Model, automaton: &Automaton, transition: &Transition) -> bool {
+    let mut literals = Literals { model, automaton, all: Vec::new(), left: MOST };
     for clause in &transition.clauses {
         match clause {
             Clause::Condition(condition) => literals.learn(condition, true),
@@ -34,6 +34,7 @@ const MOST: u32 = 1000;
 
 /// What holds, or does not, whenever a guard does: all parts of `and`, through definitions.
 struct Literals<'a> {
+    model: &'a Model,
     automaton: &'a Automaton,
     all: Vec<(&'a Expr, bool)>,
     left: u32,
@@ -80,6 +81,17 @@ impl<'a> Literals<'a> {
         times(true).max().zip(times(false).min()).is_some_and(|(longest, shortest)| longest >= shortest)
     }
 
+    /// Whether a type has a value. Another scenario may have more kinds.
+    fn exists(&self, ty: Scalar, value: Value) -> bool {
+        match (ty, value) {
+            (Scalar::Int { lo, hi }, Value::Int(int)) => (lo..=hi).contains(&int),
+            (Scalar::Enum(id), Value::Int(member)) if id != KIND => {
+                usize::try_from(member).is_ok_and(|member| member < self.model.enums[id.0].members.len())
+            }
+            _ => true,
+        }
+    }
+
     /// Whether the comparisons of something with constants leave it no value; it is looked at in the first of them.
     fn has_no_value(&self, first: usize) -> bool {
         let of = |number: usize| {
@@ -91,7 +103,10 @@ impl<'a> Literals<'a> {
         let all: Vec<Comparison> =
             numbers.filter_map(of).filter(|comparison| is_same(comparison.what, what)).collect();
         all.len() > 1
-            && !candidates(what.ty, &all).into_iter().any(|value| all.iter().all(|c| c.admits(value)))
+            && !candidates(what.ty, &all)
+                .into_iter()
+                .filter(|value| self.exists(what.ty, *value))
+                .any(|value| all.iter().all(|c| c.admits(value)))
     }
 }
 

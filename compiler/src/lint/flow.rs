@@ -3,12 +3,12 @@
 use super::contradiction;
 use super::implies::{Facts, constant};
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Automaton, Clause, Expr, ExprKind, State, Transition, Value};
+use crate::ir::{Automaton, Clause, Expr, ExprKind, Model, State, Transition, Value};
 
-pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
+pub fn check(model: &Model, automaton: &Automaton, found: &mut Vec<Diagnostic>) {
     for state in &automaton.states {
         for (number, transition) in state.transitions.iter().enumerate() {
-            if contradiction::never_holds(automaton, transition) {
+            if contradiction::never_holds(model, automaton, transition) {
                 continue;
             }
             if let Some(before) = covering(automaton, state, number) {
@@ -26,7 +26,7 @@ pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
         }
         found.extend(endless(state));
     }
-    let reached = reached(automaton);
+    let reached = reached(model, automaton);
     for (state, _) in automaton.states.iter().zip(reached).filter(|(_, reached)| !reached) {
         let message = format!("`{}` cannot be reached", state.name);
         found.push(
@@ -61,7 +61,7 @@ fn conditions(transition: &Transition) -> impl Iterator<Item = &Expr> {
 }
 
 /// Whether each state can be reached from the beginning, whatever the guards of what can fire are.
-fn reached(automaton: &Automaton) -> Vec<bool> {
+fn reached(model: &Model, automaton: &Automaton) -> Vec<bool> {
     let mut reached = vec![false; automaton.states.len()];
     let mut open = vec![0];
     while let Some(number) = open.pop() {
@@ -72,7 +72,7 @@ fn reached(automaton: &Automaton) -> Vec<bool> {
         let can_fire = |(number, transition): &(usize, &Transition)| {
             let is_false = |condition: &Expr| condition.kind == ExprKind::Constant(Value::Bool(false));
             !conditions(transition).any(is_false)
-                && !contradiction::never_holds(automaton, transition)
+                && !contradiction::never_holds(model, automaton, transition)
                 && covering(automaton, state, *number).is_none()
         };
         let firing = state.transitions.iter().enumerate().filter(can_fire);

@@ -26,8 +26,8 @@ pub fn warnings(checked: &Checked, files: &[(FileId, ast::File)], panel: Panel) 
     let model = checked.model();
     let mut found = checked.remarks().to_vec();
     for automaton in &model.automata {
-        flow::check(automaton, &mut found);
-        contradiction::check(automaton, &mut found);
+        flow::check(model, automaton, &mut found);
+        contradiction::check(model, automaton, &mut found);
         failure::check(automaton, &mut found);
         answer::check(automaton, &mut found);
         overwritten::check(automaton, &mut found);

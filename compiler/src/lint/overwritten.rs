@@ -6,7 +6,8 @@ use crate::ir::{Automaton, Expr, ExprKind, Place, Update, UpdateKind};
 pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
     for transition in automaton.states.iter().flat_map(|state| &state.transitions) {
         for (number, update) in transition.updates.iter().enumerate() {
-            let Some(by) = overwriting(automaton, update, &transition.updates[number + 1..]) else {
+            let later = &transition.updates[number + 1..];
+            let Some(by) = overwriting(automaton, update, later).filter(|_| !may_fault(update)) else {
                 continue;
             };
             found.push(
@@ -15,6 +16,16 @@ pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
                     .help("remove one of the two"),
             );
         }
+    }
+}
+
+/// Whether it stops the line where the value is outside of the bounds: that is an effect.
+fn may_fault(update: &Update) -> bool {
+    match &update.kind {
+        UpdateKind::Assign { check, .. }
+        | UpdateKind::Fill { check, .. }
+        | UpdateKind::Copy { check, .. } => check.is_some(),
+        UpdateKind::Command { .. } => false,
     }
 }
 

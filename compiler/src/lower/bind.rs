@@ -88,10 +88,27 @@ fn of_parameters(
 }
 
 fn without_automaton(object: &Object, name: &str, model: &Model) -> Diagnostic {
-    let known: Vec<String> = model.automata.iter().map(|a| json_type(&a.name)).collect();
-    let help = match suggestion(&object.kind.value, known.iter().map(String::as_str)) {
-        Some(near) => format!("is \"{near}\" meant? Types with an automaton are {}", known.join(", ")),
-        None => format!(
+    let kind = &object.kind.value;
+    let known: Vec<String> =
+        model.automata.iter().filter(|a| has_type(&a.name)).map(|a| json_type(&a.name)).collect();
+    let without_type = model.automata.iter().map(|a| a.name.as_str()).find(|automaton| {
+        !has_type(automaton)
+            && (automaton == kind || json_type(automaton) == *kind || words(automaton) == words(kind))
+    });
+    let help = match (without_type, suggestion(kind, known.iter().map(String::as_str))) {
+        (Some(automaton), _) => {
+            let other = words(automaton);
+            format!(
+                "a layout cannot name the automaton `{automaton}`: each word of its name has to begin with a capital letter, \
+                 without underscores; rename it `{}`, whose type is \"{}\"",
+                automaton_name(&other),
+                json_type(&automaton_name(&other))
+            )
+        }
+        (None, Some(near)) => {
+            format!("is \"{near}\" meant? Types with an automaton are {}", known.join(", "))
+        }
+        (None, None) => format!(
             "write `automaton {name} on ...` in a file of --specs; types with an automaton are {}",
             known.join(", ")
         ),
@@ -114,6 +131,17 @@ pub(crate) fn automaton_name(kind: &str) -> String {
         name.extend(letters);
     }
     name
+}
+
+/// Whether a layout can name an automaton.
+pub fn has_type(automaton: &str) -> bool {
+    automaton_name(&json_type(automaton)) == automaton
+}
+
+/// The words of a name in small letters, with one underscore between two of them.
+fn words(name: &str) -> String {
+    let type_name = json_type(name);
+    type_name.split('_').filter(|word| !word.is_empty()).collect::<Vec<_>>().join("_")
 }
 
 /// The type under which a layout names an automaton.

@@ -286,7 +286,7 @@ impl Parts {
         }
         found.warnings = lint::of_layout(&layout, &system, &plant);
         let Layout { name, may_touch, .. } = &*layout;
-        found.project =
-            Some(Project { name: name.clone(), system, plant, drawn, edges, may_touch: may_touch.clone() });
+        let (name, may_touch) = (name.clone(), may_touch.clone());
+        found.project = Some(Project { name, system, plant, drawn, edges, transfers, may_touch });
     }
 }

@@ -1,6 +1,7 @@
 //! From texts to a system: types bound to the machines of a layout, parameters,
 //! connectivity, roles. The hinge between what knows source text and what does not.
 
+mod awaited;
 pub(crate) mod bind;
 mod collected;
 mod device_key;
@@ -67,6 +68,8 @@ pub struct Project {
     pub drawn: Option<Drawn>,
     /// Between instances.
     pub edges: Vec<connect::Edge>,
+    /// How items go from conveyor to conveyor.
+    pub transfers: Vec<Transfer>,
     /// The pairs of which the layout says that they may touch.
     pub may_touch: Vec<MayTouch>,
 }

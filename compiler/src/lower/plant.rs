@@ -1,11 +1,12 @@
 //! What the simulator needs of a system.
 
+use super::awaited::{self, Partners};
 use super::role::Line;
 use crate::device::panel;
 use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
-use crate::ir::{Automaton, Expr, InterfaceId, PropertyKind, RoleKind, State, System, Value};
-use crate::reads::{self, ReadCell, Reads, Whose};
+use crate::ir::{Automaton, Expr, PropertyKind, State, System, Value};
+use crate::reads::{self, Reads};
 use crate::scenario::{self, Input, MachinePart, Number, Panel, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use runtime_sim::machine::Machine;
@@ -104,7 +105,7 @@ pub fn line(
         at_scan: scans(at_s),
         scans: for_s.map(|for_s| scans(for_s).max(1)),
     };
-    let arms = arms(system);
+    let partners = awaited::partners(system);
     // What it is asked is fixed by the layout.
     let mut executor = Executor::without_values(system);
     let traces = system.traces();
@@ -130,7 +131,7 @@ pub fn line(
             .map(|(i, machine)| {
                 let of_type = &types[system.instances[i].automaton.0];
                 Machine {
-                    states: states(system, &arms, of_type, &mut executor, i),
+                    states: states(system, &partners, of_type, &mut executor, i),
                     monitor: monitor(of_type, &traces, &mut executor, i),
                     ..machine
                 }
@@ -224,22 +225,6 @@ fn collected(scenario::Collected { sink, items }: scenario::Collected<[usize; 2]
     line::Collected { machine: sink[0], part: sink[1], items }
 }
 
-/// The arms that take from or hand to an instance, with the interface for which they come.
-type Arms = Vec<(InterfaceId, usize)>;
-
-fn arms(system: &System) -> Vec<Arms> {
-    let mut arms = vec![Arms::new(); system.instances.len()];
-    for (arm, instance) in system.instances.iter().enumerate() {
-        for (role, rows) in system.automaton_of(arm).roles.iter().zip(&instance.roles) {
-            if matches!(role.kind, RoleKind::Takes | RoleKind::Hands) {
-                let members = &system.members[role.interface.0];
-                rows.iter().for_each(|row| arms[members[*row]].push((role.interface, arm)));
-            }
-        }
-    }
-    arms
-}
-
 /// What the simulator needs of all instances of a type.
 struct OfType<'a> {
     automaton: &'a Automaton,
@@ -289,7 +274,7 @@ fn of_type<'a>(system: &System, automaton: &'a Automaton) -> OfType<'a> {
 /// What the simulator needs of the states of an instance.
 fn states(
     system: &System,
-    arms: &[Arms],
+    partners: &[Partners],
     of_type: &OfType,
     executor: &mut Executor,
     instance: usize,
@@ -301,13 +286,16 @@ fn states(
             other => unreachable!("a checked time is {other:?}"),
         })
     };
-    let state = |(state, of_state): (&State, &OfState)| line::State {
-        name: state.name.clone(),
-        working: !of_state.guards.timers.is_empty() || !of_state.guards.inputs.is_empty(),
-        awaits: owners(system, arms, instance, &of_state.guards).into_iter().collect(),
-        reads: of_state.reads.clone(),
-        reads_while: of_state.reads_while.clone(),
-        timers: of_state.timers.as_ref().map(|times| times.iter().filter_map(&mut time).collect()),
+    let state = |(state, of_state): (&State, &OfState)| {
+        let awaits = awaited::others(system, partners, instance, &of_state.guards);
+        line::State {
+            name: state.name.clone(),
+            working: awaited::awaits_itself(of_type.automaton, &of_state.guards, &awaits),
+            awaits: awaits.into_iter().collect(),
+            reads: of_state.reads.clone(),
+            reads_while: of_state.reads_while.clone(),
+            timers: of_state.timers.as_ref().map(|times| times.iter().filter_map(&mut time).collect()),
+        }
     };
     states.map(state).collect()
 }
@@ -344,29 +332,4 @@ fn words(reads: &Reads, kinds: usize) -> Vec<usize> {
     let behind = reads.words_while(kinds).into_iter().map(|read| read.word);
     let all: BTreeSet<usize> = reads.words(kinds).into_iter().chain(behind).collect();
     all.into_iter().collect()
-}
-
-/// Who writes the cells that guards read, but for the instance itself.
-fn owners(system: &System, arms: &[Arms], instance: usize, guards: &Reads) -> BTreeSet<usize> {
-    let mut owners = BTreeSet::new();
-    for ReadCell { interface, of, .. } in &guards.cells {
-        match of {
-            // A cell of its own is awaited from the arms that come here: they write it too.
-            Whose::Own => {
-                let come_here = arms[instance].iter().filter(|(i, _)| i == interface);
-                owners.extend(come_here.map(|(_, arm)| *arm));
-            }
-            Whose::Others => {
-                let roles = &system.automaton_of(instance).roles;
-                let rows = roles
-                    .iter()
-                    .zip(&system.instances[instance].roles)
-                    .filter(|(role, _)| role.interface == *interface && role.kind != RoleKind::Knows)
-                    .flat_map(|(_, rows)| rows);
-                owners.extend(rows.map(|row| system.members[interface.0][*row]));
-            }
-        }
-    }
-    owners.remove(&instance);
-    owners
 }

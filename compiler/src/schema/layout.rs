@@ -8,7 +8,7 @@ use crate::layout::machine::{LONGEST_S, OBSTACLES};
 use crate::layout::object::{COMMON_KEYS, FARTHEST};
 use crate::layout::read::{KEYS, SCANS_MS};
 use crate::layout::routes::FASTEST;
-use crate::lower::bind::json_type;
+use crate::lower::bind::{has_type, json_type};
 use serde_json::{Map, Value, json};
 
 /// `model` has the types. If `are_kinds_known` its kinds are those of the scenario, and else their number is not known.
@@ -111,7 +111,8 @@ impl Types<'_> {
     fn object(&self, is_stationary: bool) -> Value {
         let mut pose = vec![metres(), metres(), metres(), number(-360.0, 360.0)];
         pose[3]["description"] = json!("Rotation in degrees to the left");
-        let mut known: Vec<String> = self.model.automata.iter().map(|a| json_type(&a.name)).collect();
+        let automata = self.model.automata.iter().filter(|automaton| has_type(&automaton.name));
+        let mut known: Vec<String> = automata.map(|automaton| json_type(&automaton.name)).collect();
         known.extend(OBSTACLES.iter().filter(|_| is_stationary).map(|kind| kind.to_string()));
         let kind = json!({ "anyOf": [{ "enum": known }, text()] });
         let mut all = vec![

@@ -50,7 +50,7 @@ fn one(robots: usize, layout: String) {
         lap(1);
         let of_st = st::files(&project.system, &outcome.sources);
         lap(2);
-        let graphs = dot::files(&project.system, &project.edges);
+        let graphs = dot::files(&project);
         let plan = plan::svg(&project.plant, &project.edges);
         let data = [project.plant.to_text(), rust::parameters_text(&project.system), plan];
         lap(3);

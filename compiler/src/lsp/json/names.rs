@@ -3,8 +3,9 @@
 use super::tree::{Place, Step, Wanted};
 use super::{Line, Of, Thing};
 use crate::ir::{Automaton, Scalar};
-use crate::lower::bind::{automaton_name, json_type};
+use crate::lower::bind::{automaton_name, has_type, json_type};
 use crate::scenario::read::operator::OF_LINE;
+use runtime_sim::device::Direction;
 
 /// The names that a place asks for.
 pub fn names(line: &Line, of: Of, place: &Place) -> Vec<String> {
@@ -29,7 +30,9 @@ fn in_layout(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
     let own = || place.around.get(2).copied();
     let text = |key: &str| own().and_then(|own| own.get(key)?.text());
     match path {
-        ["robots" | "stationary", "*", "type"] => line.declared.iter().map(|name| json_type(name)).collect(),
+        ["robots" | "stationary", "*", "type"] => {
+            line.declared.iter().filter(|name| has_type(name)).map(|name| json_type(name)).collect()
+        }
         ["robots" | "stationary", "*", "takes_from" | "hands_to", "*"] => {
             let name = text("name");
             of_things(line, |thing, automaton| automaton.is_some() && Some(thing.name.as_str()) != name)
@@ -71,19 +74,48 @@ fn in_scenario(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
         | ["orders", "*", "station"]
         | ["orders", "*", "station" | "stations", "*"] => having(line, "orders"),
         ["faults", "slips", "*", "robot"] => having(line, "grip"),
+        ["faults", "jams", "*", "robot"] => {
+            of_machines(line, |automaton| automaton.device.jamming().count() > 0)
+        }
+        ["faults", "jams", "*", "part"] => {
+            of_robot(line, place, |automaton| texts(automaton.device.jamming()))
+        }
+        ["faults", "slow", "*", "robot"] => having(line, "process"),
+        ["faults", "slow", "*", "part"] => of_robot(line, place, |automaton| {
+            texts(automaton.device.parts_called("process").map(|(_, part)| part))
+        }),
+        ["faults", "sensors", "*", "robot"] => of_machines(line, |automaton| inputs(automaton).count() > 0),
+        ["faults", "sensors", "*", "signal"] => of_robot(line, place, |automaton| texts(inputs(automaton))),
         ["faults", _, "*", "robot"] => of_machines(line, |automaton| automaton.device.is_commanded()),
         ["operator", "*", "robot"] => of_machines(line, |automaton| automaton.device.operated().count() > 0),
         ["operator", "*", "part"] => {
-            let robot = place.around.last().and_then(|own| own.get("robot")?.text());
-            if robot.is_none() {
+            if named_robot(place).is_none() {
                 return OF_LINE.iter().map(|(button, _)| button.to_string()).collect();
             }
-            let robot = machines(line).find(|(thing, _)| Some(thing.name.as_str()) == robot);
-            let parts = robot.into_iter().flat_map(|(_, automaton)| automaton.device.operated());
-            parts.map(|(_, part, _)| part.to_string()).collect()
+            of_robot(line, place, |automaton| texts(automaton.device.operated().map(|(_, part, _)| part)))
         }
         _ => Vec::new(),
     }
+}
+
+/// The machine that the object names in which the place is.
+fn named_robot<'a>(place: &'a Place) -> Option<&'a str> {
+    place.around.last().and_then(|own| own.get("robot")?.text())
+}
+
+fn of_robot(line: &Line, place: &Place, names: impl Fn(&Automaton) -> Vec<String>) -> Vec<String> {
+    let robot = named_robot(place);
+    let mut of_name = machines(line).filter(|(thing, _)| Some(thing.name.as_str()) == robot);
+    of_name.next().map_or_else(Vec::new, |(_, automaton)| names(automaton))
+}
+
+fn inputs(automaton: &Automaton) -> impl Iterator<Item = &str> {
+    let inputs = automaton.device.ports.iter().filter(|port| port.direction == Direction::Input);
+    inputs.map(|port| port.name.as_str())
+}
+
+fn texts<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    names.map(String::from).collect()
 }
 
 fn of_things(line: &Line, is_wanted: impl Fn(&Thing, Option<&Automaton>) -> bool) -> Vec<String> {

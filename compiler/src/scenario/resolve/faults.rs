@@ -79,7 +79,8 @@ impl<'a> Resolver<'a> {
             None => format!("{} has no part \"{}\"", robot.value, part.value),
             Some(found) => {
                 let primitive = found.primitive.name;
-                format!("{} of {} is a {primitive}, which {}", part.value, robot.value, wanted.cannot)
+                let article = if primitive.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+                format!("{} of {} is {article} {primitive}, which {}", part.value, robot.value, wanted.cannot)
             }
         };
         let names: Vec<&str> = of_robot().filter(is_wanted).map(|other| other.part).collect();

@@ -9,6 +9,11 @@ const MOST: usize = 1000;
 /// Transitions of any state, in all states of an automaton together.
 const MOST_OF_ANY_STATE: usize = 50_000;
 
+/// Of which there are too many.
+const FILE: &str = "enumerations, interfaces and automata";
+const MEMBERS: &str = "members";
+const UPDATES: &str = "updates in one transition";
+
 impl Parser {
     pub(super) fn bounded(&mut self, file: &ast::File) {
         let names = file.enums.iter().map(|e| &e.name);
@@ -16,11 +21,10 @@ impl Parser {
             names.chain(file.interfaces.iter().map(|i| &i.name)).chain(file.automata.iter().map(|a| &a.name));
         let names: Vec<&ast::Name> = names.collect();
         if let Some(first) = names.get(MOST) {
-            let what = "enumerations, interfaces and automata";
-            self.too_many(first, "a file", what, [names.len(), MOST]);
+            self.too_many(first, "a file", FILE, [names.len(), MOST]);
         }
         for tree in &file.enums {
-            self.bound(&tree.name, "members", tree.members.len());
+            self.bound(&tree.name, MEMBERS, tree.members.len());
         }
         for tree in &file.interfaces {
             self.bound(&tree.name, "parameters", tree.parameters.len());
@@ -65,7 +69,7 @@ impl Parser {
                     0
                 }
             };
-            self.bound(&state.name, "updates in one transition", outcomes);
+            self.bound(&state.name, UPDATES, outcomes);
         }
     }
 
@@ -78,7 +82,12 @@ impl Parser {
     fn too_many(&mut self, name: &ast::Name, who: &str, what: &str, [count, most]: [usize; 2]) {
         let diagnostic = Diagnostic::new("E0215", name.span, format!("{who} has more than {most} {what}"))
             .note(format!("there are {count}"))
-            .help("divide it into several, or compute values in updates instead");
+            .help(match what {
+                FILE => "divide it into several files",
+                MEMBERS => "use fewer members, or a whole number with bounds",
+                UPDATES => "divide the transition: the updates follow one another in several states",
+                _ => "divide it into several, or compute values in updates instead",
+            });
         collect(&mut self.diagnostics, diagnostic);
     }
 }

@@ -1,0 +1,69 @@
+//! What a machine awaits in a state in which no command is under way: others, or a timer or a signal of its own.
+
+use crate::ir::{Automaton, InterfaceId, Role, RoleKind, Rule, System};
+use crate::reads::{ReadCell, Reads, Whose};
+use std::collections::BTreeSet;
+
+/// Those that work with an instance, with the interface that they see of it.
+pub type Partners = Vec<(InterfaceId, usize)>;
+
+/// The members of a role that may be awaited one by one: of a `knows` with more of them, such as all zones of a line, it
+/// would tell nothing who they are.
+const MOST_KNOWN: usize = 8;
+
+fn can_be_awaited(role: &Role, rows: &[usize]) -> bool {
+    role.kind != RoleKind::Knows || rows.len() <= MOST_KNOWN
+}
+
+pub fn partners(system: &System) -> Vec<Partners> {
+    let mut partners = vec![Partners::new(); system.instances.len()];
+    for (partner, instance) in system.instances.iter().enumerate() {
+        for (role, rows) in system.automaton_of(partner).roles.iter().zip(&instance.roles) {
+            if can_be_awaited(role, rows) {
+                let members = &system.members[role.interface.0];
+                rows.iter().for_each(|row| partners[members[*row]].push((role.interface, partner)));
+            }
+        }
+    }
+    partners
+}
+
+/// Who writes the cells that guards read, but for the instance itself.
+pub fn others(system: &System, partners: &[Partners], instance: usize, guards: &Reads) -> BTreeSet<usize> {
+    let mut others = BTreeSet::new();
+    for ReadCell { interface, cell, of } in &guards.cells {
+        match of {
+            // A cell of its own is awaited from those that may write it too.
+            Whose::Own => {
+                if !matches!(system.model.interface(*interface).cells[*cell].rule, Rule::Owner) {
+                    let see_it = partners[instance].iter().filter(|(i, _)| i == interface);
+                    others.extend(see_it.map(|(_, partner)| *partner));
+                }
+            }
+            Whose::Others => {
+                let roles = system.automaton_of(instance).roles.iter().zip(&system.instances[instance].roles);
+                let rows = roles
+                    .filter(|(role, rows)| role.interface == *interface && can_be_awaited(role, rows))
+                    .flat_map(|(_, rows)| rows);
+                others.extend(rows.map(|row| system.members[interface.0][*row]));
+            }
+        }
+    }
+    others.remove(&instance);
+    others
+}
+
+/// Whether an instance whose command has ended awaits a timer or a signal of its own. The answer to the command is none
+/// where others are awaited: it is there.
+pub fn awaits_itself(automaton: &Automaton, guards: &Reads, others: &BTreeSet<usize>) -> bool {
+    let is_answer = |port: &usize| {
+        let port = &automaton.device.ports[*port];
+        port.place.is_none() && ANSWER.contains(&port.name.as_str())
+    };
+    let mut inputs = guards.inputs.iter();
+    !guards.timers.is_empty()
+        || if others.is_empty() { inputs.next().is_some() } else { inputs.any(|port| !is_answer(port)) }
+}
+
+/// The inputs by which a device answers a command.
+const ANSWER: [&str; 3] = ["got", "ack", "error"];
