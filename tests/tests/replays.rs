@@ -1,5 +1,6 @@
 //! What is said of the simulator beside a violation: whether the same transitions have fired.
 
+use autogen::library;
 use autogen_search::plant::Faults;
 use autogen_tests::replayed::replayed;
 use autogen_tests::{Texts, own_line};
@@ -121,23 +122,45 @@ fn what_is_not_answered_in_a_sequence_is_not_answered_in_its_run() {
     assert_eq!(replay.report.fault.map(|(_, machine)| machine), Some("counter".into()));
 }
 
+/// The buffer with an order of one part.
+fn one_part() -> Texts {
+    let scenario = r#"{
+        "kinds": [{"name": "battery", "height": 0.053}],
+        "orders": [{"station": "as1", "parts": {"battery": 1}}]
+    }"#;
+    Texts { scenario: Some(scenario.into()), ..own_line("buffer") }
+}
+
+fn replace(text: &mut String, from: &str, to: &str) {
+    assert!(text.contains(from), "{from}");
+    *text = text.replace(from, to);
+}
+
 /// An item that is lost on the way falls far from both ends of the motion: the arm is not over its source any more.
 #[test]
 fn what_is_lost_on_the_way_is_lost_there() {
-    let mut texts = Texts {
-        scenario: Some(
-            r#"{
-                "kinds": [{"name": "battery", "height": 0.053}],
-                "orders": [{"station": "as1", "parts": {"battery": 1}}]
-            }"#
-            .into(),
-        ),
-        ..own_line("buffer")
-    };
-    let released = "misses := 0; held := false;\n        }\n        // The arm";
-    assert!(texts.specs[0].contains(released));
-    texts.specs[0] = texts.specs[0].replace(released, "misses := 0;\n        }\n        // The arm");
+    let mut texts = one_part();
+    let behind = "\n        }\n        // The arm";
+    let with_lock = format!("misses := 0; held := false;{behind}");
+    replace(&mut texts.specs[0], &with_lock, &format!("misses := 0;{behind}"));
     let replay = replayed(&texts, Faults::All);
     assert!(replay.result.is_ok(), "{:?}", replay.result);
     assert!(!replay.report.finished);
+}
+
+/// No transition fires when the item is lost.
+#[test]
+fn what_devices_do_behind_the_last_transition_is_done() {
+    let file = library::FILES.iter().find(|(name, _)| *name == "library/kitting.aut");
+    let mut kitting = file.expect("a type of the library").1.to_string();
+    let promise = "local carries: bool; invariant attached or not grip or not carries; retain all;";
+    replace(&mut kitting, "retain all;", promise);
+    let lifts = "when done and attached -> Lifting {";
+    replace(&mut kitting, lifts, &format!("{lifts} carries := true;"));
+    replace(&mut kitting, "when not attached and grip { grip := false; }", "");
+    let mut texts = one_part();
+    texts.specs.push(kitting);
+    let replay = replayed(&texts, Faults::All);
+    assert!(replay.result.is_ok(), "{:?}", replay.result);
+    assert_eq!(replay.report.fault.map(|(_, machine)| machine), Some("kitting".into()));
 }
