@@ -323,7 +323,7 @@ pub struct VerifyOptions {
     /// Properties that are searched although a violation only warns
     #[arg(long, value_enum, default_value = "own")]
     pub warnings: Warnings,
-    /// Limit of time or memory, such as 90s, 10min, 500MB or 2GB; may be given twice. Default: 10min and 2GB
+    /// Limit of time or memory, such as 90s, 10min, 500MB or 2GB; one of each may be given. Default: 10min and 2GB
     #[arg(long, value_name = "LIMIT")]
     pub limit: Vec<String>,
     /// Number of processors that search; default: all

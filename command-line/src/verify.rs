@@ -192,22 +192,31 @@ fn search(
 
 /// Of time and memory, as `90s`, `10min`, `2GB` or `500MB`.
 fn limits(texts: &[String]) -> Result<(Duration, usize), String> {
-    let (mut time, mut memory) = (TIME, MEMORY);
+    let (mut time, mut memory) = (None, None);
     for text in texts {
         let digits = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
         let number: Option<u32> = text[..digits].parse().ok().filter(|number| *number > 0);
-        match (number, &text[digits..]) {
-            (Some(n), "s") => time = Duration::from_secs(n.into()),
-            (Some(n), "min") => time = Duration::from_secs(60 * u64::from(n)),
-            (Some(n), "h") => time = Duration::from_secs(3600 * u64::from(n)),
-            (Some(n), "MB") => memory = (n as usize).saturating_mul(1_000_000),
-            (Some(n), "GB") => memory = (n as usize).saturating_mul(1_000_000_000),
+        let time_of = |n: u32, seconds: u64| Some(Duration::from_secs(seconds * u64::from(n)));
+        let memory_of = |n: u32, bytes: usize| Some((n as usize).saturating_mul(bytes));
+        let (of_time, of_memory) = match (number, &text[digits..]) {
+            (Some(n), "s") => (time_of(n, 1), None),
+            (Some(n), "min") => (time_of(n, 60), None),
+            (Some(n), "h") => (time_of(n, 3600), None),
+            (Some(n), "MB") => (None, memory_of(n, 1_000_000)),
+            (Some(n), "GB") => (None, memory_of(n, 1_000_000_000)),
             _ => {
                 return Err(
                     "--limit takes a time or an amount of memory, such as 90s, 10min, 500MB or 2GB".into()
                 );
             }
+        };
+        if time.is_some() && of_time.is_some() {
+            return Err("--limit takes one time, and there are two".into());
         }
+        if memory.is_some() && of_memory.is_some() {
+            return Err("--limit takes one amount of memory, and there are two".into());
+        }
+        (time, memory) = (time.or(of_time), memory.or(of_memory));
     }
-    Ok((time, memory))
+    Ok((time.unwrap_or(TIME), memory.unwrap_or(MEMORY)))
 }

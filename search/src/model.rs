@@ -1,6 +1,6 @@
 //! A line as it is searched: automata, plant, and what a state consists of.
 
-use crate::plant::{Faults, Input, Machine, Order, Watch};
+use crate::plant::{Faults, Input, Machine, Order, Watch, status};
 use crate::program::{Cells, Instance};
 use crate::stroke::{Cylinder, Process};
 use crate::unread::Unread;
@@ -129,6 +129,11 @@ impl Model {
     /// Whether any machine is: then an operator has to come.
     pub fn any_stands(&self, state: &[u8]) -> bool {
         (0..self.instances.len()).any(|machine| self.stands(state, machine))
+    }
+
+    pub(crate) fn any_is_under_way(&self, state: &[u8]) -> bool {
+        let mut heads = self.machines.iter().filter_map(|machine| machine.head.as_ref());
+        heads.any(|head| head.status.load(state) == status::UNDER_WAY)
     }
 
     /// Variables of binders and quantifiers that one instance has at most.

@@ -217,7 +217,8 @@ impl<'a> Possible<'a> {
         calm
     }
 
-    /// States in which something happens at once but that inputs change by themselves, or an operator has to come.
+    /// States in which a command is under way, or something happens at once but that inputs change by themselves, or an operator
+    /// has to come. A command that is given again each time it ends leads to the same state.
     pub(crate) fn go_on(&self) -> Vec<bool> {
         let model = self.expander.model;
         let mut counts = vec![true; self.store.length()];
@@ -228,8 +229,10 @@ impl<'a> Possible<'a> {
             let [from, to] = [from, to].map(|state| self.store.state(state as usize));
             from.iter().zip(&to).zip(&counts).any(|((before, after), counts)| *counts && before != after)
         };
-        let mut go_on: Vec<bool> =
-            (0..self.states).map(|state| model.any_stands(&self.store.state(state))).collect();
+        let mut go_on: Vec<bool> = (0..self.states)
+            .map(|state| self.store.state(state))
+            .map(|state| model.any_stands(&state) || model.any_is_under_way(&state))
+            .collect();
         for (from, to) in &self.edges.list {
             if !go_on[*from as usize] {
                 go_on[*from as usize] = differs(*from, *to);

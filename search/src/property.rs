@@ -18,9 +18,17 @@ pub struct Property {
 
 #[derive(Clone, Debug)]
 pub enum Check {
-    Always(Int),
+    Always(Always),
     Keep(Keep),
     Whenever(Whenever),
+}
+
+/// A condition that holds in each scan.
+#[derive(Clone, Debug)]
+pub struct Always {
+    pub condition: Int,
+    /// The same while the machine is stopped, if it reads outputs that have other values then.
+    pub stopped: Option<Int>,
 }
 
 /// What a violation does.
@@ -116,7 +124,8 @@ impl Scan<'_> {
     fn is_violated(&mut self, instance: usize, property: usize, stands: bool) -> bool {
         let program = &self.model.instances[instance];
         match &program.properties[property].check {
-            Check::Always(condition) => !self.decide_condition(instance, property, condition),
+            Check::Always(Always { stopped: Some(condition), .. }) if stands => !self.holds(condition),
+            Check::Always(Always { condition, .. }) => !self.decide_condition(instance, property, condition),
             Check::Keep(keep) => match &keep.memory {
                 None => !stands && self.has_changed(instance, property, keep),
                 Some(memory) => self.has_changed_since(keep, memory, stands),

@@ -2,7 +2,7 @@
 
 use crate::event::{self, What};
 use crate::model::Model;
-use crate::plant::{Action, Arm, Asked, Faults, motion, status};
+use crate::plant::{Action, Arm, Asked, Faults, motion};
 use crate::possible::{Open, Possible, Stops};
 use crate::program::bit;
 use crate::scan::Scan;
@@ -112,10 +112,8 @@ impl Possible<'_> {
 
 /// No command is under way, and no conveyor runs.
 fn rests(model: &Model, state: &[u8]) -> bool {
-    model.machines.iter().all(|machine| {
-        machine.head.as_ref().is_none_or(|head| head.status.load(state) != status::UNDER_WAY)
-            && machine.lane.as_ref().is_none_or(|lane| lane.motion.load(state) == motion::STANDS)
-    })
+    let mut lanes = model.machines.iter().filter_map(|machine| machine.lane.as_ref());
+    !model.any_is_under_way(state) && lanes.all(|lane| lane.motion.load(state) == motion::STANDS)
 }
 
 /// A tool that is moved by less goes straight up or down, m.

@@ -18,6 +18,8 @@ pub struct Happened {
     pub before: Vec<u8>,
     pub events: Vec<Event>,
     pub told: Told,
+    /// Stops of machines that were not stopped before.
+    pub stops: Vec<Violation>,
     /// In a scan with a violation: as far as it came.
     pub after: Vec<u8>,
 }
@@ -73,6 +75,8 @@ impl Expander<'_> {
     ) -> Option<Happened> {
         let mut best: Option<Happened> = None;
         let mut least = (usize::MAX, usize::MAX);
+        let model = self.model;
+        let is_new_stop = |noted: &&Violation| matches!(noted, Violation::MachineStops { instance, .. } if !model.stands(before, *instance));
         self.tell = true;
         self.expand(before, u64::MAX, &mut |successor| {
             let events = (successor.faults, successor.events.len());
@@ -82,6 +86,7 @@ impl Expander<'_> {
                     before: before.to_vec(),
                     events: successor.events.to_vec(),
                     told: successor.told.clone(),
+                    stops: successor.noted.iter().filter(is_new_stop).cloned().collect(),
                     after: successor.state.to_vec(),
                 });
             }

@@ -5,24 +5,26 @@ use crate::results::results;
 use autogen::backend::report::{self, story};
 use autogen::executor::Executor;
 use autogen::lower::Project;
-use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
 use runtime_sim::run::{Stepping, record};
 use serde_json::json;
 
 pub fn page(project: &Project, teller: &Teller, shown: &Shown) -> Result<String, String> {
-    let (replay, seconds) = match &shown.replay {
-        Ok(replay @ Replay { result: Ok(seconds), .. }) => (replay, seconds),
-        Ok(Replay { result: Err(why), report, .. }) => {
-            let reason = teller.reason(report);
-            let simulator = format!("In the simulator, {why}, and the run ends: {reason}");
-            return Ok(story::html(project, teller, shown.violation, shown.execution, &simulator));
-        }
-        Err(why) => {
-            let simulator = format!("There is no run in the simulator: {why}");
-            return Ok(story::html(project, teller, shown.violation, shown.execution, &simulator));
-        }
+    let steps = |simulator: &str| story::html(project, teller, shown.violation, shown.execution, simulator);
+    let replay = match &shown.replay {
+        Ok(replay) => replay,
+        Err(why) => return Ok(steps(&format!("There is no run in the simulator: {why}"))),
     };
+    let reason = teller.reason(&replay.report);
+    let seconds = match &replay.result {
+        Ok(seconds) => seconds,
+        Err(why) => return Ok(steps(&format!("In the simulator, {why}, and the run ends: {reason}"))),
+    };
+    if teller.occurs(shown.violation, &replay.report) == Some(false) {
+        return Ok(steps(&format!(
+            "In the simulator, the same transitions have fired by {seconds:.2} s, but the violation does not occur, and the run ends: {reason}"
+        )));
+    }
     let mut executor = Executor::new(&project.system);
     let watched = report::watched(&project.system);
     let recorded = record(&replay.line, &mut executor, Stepping::Events, &watched, &mut |_| {})?;

@@ -99,11 +99,18 @@ impl Report<'_> {
         }
         let has_obligations = self.teller.model.instances.iter().flat_map(|instance| &instance.properties);
         if has_obligations.into_iter().any(|property| matches!(property.check, Check::Whenever(_))) {
-            bounds.push(match self.undecided(self.outcome.obligations) {
-                Some(why) => format!("whether what a `whenever` waits for can come is not decided: {why}"),
-                None => "what a `whenever` waits for can always still come, after any number of scans; whether it comes in time is not decided"
-                    .into(),
-            });
+            let is_refuted =
+                |(violation, _): &(Violation, _)| matches!(violation, Violation::NeverFollowed { .. });
+            match self.undecided(self.outcome.obligations) {
+                Some(why) => {
+                    bounds.push(format!("whether what a `whenever` waits for can come is not decided: {why}"));
+                }
+                None if self.outcome.violations.iter().any(is_refuted) => {}
+                None => bounds.push(
+                    "what a `whenever` waits for can always still come, after any number of scans; whether it comes in time is not decided"
+                        .into(),
+                ),
+            }
         }
         match self.options.warnings {
             Warnings::None => bounds.push("properties that only warn are not searched".into()),
@@ -163,6 +170,24 @@ impl Report<'_> {
         }
     }
 
+    /// What the simulator made of it.
+    fn replayed(&self, Shown { violation, replay, .. }: &Shown) -> String {
+        let Replay { result, report, .. } = match replay {
+            Ok(replay) => replay,
+            Err(why) => return format!("there is no run: {why}"),
+        };
+        let course = match result {
+            Ok(seconds) => format!("the same transitions have fired by {seconds:.2} s"),
+            Err(why) => why.clone(),
+        };
+        let occurs = match self.teller.occurs(violation, report) {
+            Some(true) => "; the violation occurs",
+            Some(false) => "; the violation does not occur",
+            None => "",
+        };
+        format!("{course}{occurs}; the run ends: {}", self.teller.reason(report))
+    }
+
     pub fn text(&self) -> String {
         let covered = &self.outcome.covered;
         let mut out = String::new();
@@ -173,7 +198,7 @@ impl Report<'_> {
             if !situation.is_empty() {
                 let _ = writeln!(out, "at that moment\n  {}\n", situation.join("\n  "));
             }
-            let _ = writeln!(out, "in the simulator   {}\n", replayed(self.teller, &shown.replay));
+            let _ = writeln!(out, "in the simulator   {}\n", self.replayed(shown));
         }
         for (remark, execution) in &self.outcome.remarks {
             let _ = writeln!(out, "noticed: {}\n", self.teller.title(remark));
@@ -212,7 +237,7 @@ impl Report<'_> {
                     "violation": self.teller.title(shown.violation),
                     "story": self.teller.tell(shown.execution).lines().collect::<Vec<_>>(),
                     "at_that_moment": self.teller.situation(shown.execution),
-                    "simulator": replayed(self.teller, &shown.replay),
+                    "simulator": self.replayed(shown),
                 })
             })
             .collect();
@@ -283,18 +308,5 @@ fn checked(failing: usize) -> String {
         0 => "all sequences without faults".into(),
         1 => "all sequences with faults in at most one scan".into(),
         _ => format!("all sequences with faults in at most {failing} scans"),
-    }
-}
-
-fn replayed(teller: &Teller, replay: &Result<Replay, String>) -> String {
-    match replay {
-        Ok(Replay { result: Ok(seconds), report, .. }) => {
-            let reason = teller.reason(report);
-            format!("the same transitions have fired by {seconds:.2} s; the run ends: {reason}")
-        }
-        Ok(Replay { result: Err(why), report, .. }) => {
-            format!("{why}; the run ends: {}", teller.reason(report))
-        }
-        Err(why) => format!("there is no run: {why}"),
     }
 }

@@ -80,3 +80,37 @@ fn transitions_that_have_not_fired_are_not_said_to_have() {
         assert!(!said.contains("the same transitions"), "{name}: {said}");
     }
 }
+
+/// Nobody presses the button in the run.
+#[test]
+fn a_violation_that_does_not_occur_in_the_run_is_not_said_to() {
+    let automaton = "initial -> Waiting {} final state Waiting; invariant not pressed;";
+    let folder = put("needs_button", automaton, r#"{"time_limit_s": 2}"#);
+    let said = simulator(&folder, &["--report", "page.html"]);
+    assert!(said.contains("; the violation does not occur; the run ends: time limit reached"), "{said}");
+    let page = fs::read_to_string(folder.join("page.html")).expect("a page");
+    assert!(page.contains("but the violation does not occur"));
+}
+
+/// What is violated is not promised below.
+#[test]
+fn what_is_waited_for_can_come_only_if_nothing_else_was_found() {
+    let bounds = |name, goal| {
+        let automaton = format!(
+            "local n: int 0..2;
+            whenever n = 1 then n = 2 within 1 s;
+            initial -> First {{ n := 1; }}
+            state First {{ when pressed -> Second {{ n := {goal}; }} }}
+            state Second {{ when pressed -> Second {{}} }}"
+        );
+        let folder = put(name, &automaton, r#"{"time_limit_s": 60}"#);
+        let output = autogen(
+            &folder,
+            &["verify", "line.json", "--scenario", "scenario.json", "--all", "--format", "json"],
+        );
+        json(&output)["bounds"].to_string()
+    };
+    let promise = "can always still come";
+    assert!(bounds("is_followed", 2).contains(promise));
+    assert!(!bounds("is_never_followed", 0).contains(promise));
+}

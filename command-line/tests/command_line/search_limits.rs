@@ -41,6 +41,18 @@ fn a_state_with_too_many_successors_is_cut_by_the_limits() {
 }
 
 #[test]
+fn two_limits_of_a_kind_are_refused() {
+    let folder = machines("search_two_limits", 1);
+    for (limits, kind) in [(["1s", "5min"], "time"), (["1GB", "500MB"], "amount of memory")] {
+        let limits = limits.map(|limit| format!("--limit={limit}"));
+        let output = autogen(&folder, &["verify", "line.json", &limits[0], &limits[1]]);
+        assert_eq!(status(&output), 2);
+        let said = errors(&output);
+        assert!(said.contains(&format!("--limit takes one {kind}, and there are two")), "{said}");
+    }
+}
+
+#[test]
 fn at_least_one_device_answers_in_a_scan() {
     let folder = machines("search_answers", 1);
     let arguments = ["verify", "line.json", "--scenario", "scenario.json", "--answers"];

@@ -6,7 +6,7 @@ use super::{Asked, Remembered, Warnings};
 use crate::ir::{self, Automaton, Expr, ExprKind, Place, PropertyKind, Scalar, Severity, Value};
 use crate::library;
 use autogen_search::program::Cells;
-use autogen_search::property::{self, Check, Effect, Keep, Property, Whenever};
+use autogen_search::property::{self, Always, Check, Effect, Keep, Property, Whenever};
 
 /// Which properties of a type are searched. Of obligations those are left out whose violation calls the operator, because
 /// that is meant, and `answer` (which alone begins anew): contracts say that every command can be answered.
@@ -60,7 +60,7 @@ impl Instance<'_> {
             let refused = self.refused.len();
             self.begin_anew();
             let check = match &property.kind {
-                PropertyKind::Always(condition) => Check::Always(self.int(condition)),
+                PropertyKind::Always(condition) => Check::Always(self.always(condition)),
                 PropertyKind::Keep { condition, values, .. } => {
                     self.keep(condition, values.iter().map(|kept| &kept.value), asked, memory)
                 }
@@ -93,6 +93,18 @@ impl Instance<'_> {
             found.push(Property { check, fault: property.site.0, effect, reads, asks_inputs });
         }
         found
+    }
+
+    fn always(&mut self, condition: &Expr) -> Always {
+        let is_masked = self.line.stopped[self.number].is_some() && !self.automaton.masked.is_empty();
+        let stopped = is_masked.then(|| {
+            self.is_stopped = true;
+            let condition = self.int(condition);
+            self.is_stopped = false;
+            self.begin_anew();
+            condition
+        });
+        Always { condition: self.int(condition), stopped }
     }
 
     fn keep<'a>(

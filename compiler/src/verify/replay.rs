@@ -1,6 +1,8 @@
 //! An execution in the simulator: the scenario that brings it about, by what slips, how commands end, and how late
 //! devices answer.
 
+mod late;
+
 use super::followed::{Followed, Mark};
 use crate::ir::UpdateKind;
 use crate::lower::Project;
@@ -9,6 +11,7 @@ use autogen_search::event::{Ending, From, What};
 use autogen_search::model::Model;
 use autogen_search::plant::motion;
 use autogen_search::story::Execution;
+use late::Late;
 use runtime_sim::line::{Answer, Goal, Line, Slip, Supply};
 use runtime_sim::plant::{self, Plant};
 use runtime_sim::report::Report;
@@ -21,6 +24,10 @@ use std::collections::VecDeque;
 const APART_S: f64 = 8.0;
 /// The answer to a command that is replaced comes so long after that, s: never.
 const REPLACED_S: f64 = 1.0;
+/// What nobody has answered when all has happened is answered so much later, s: what is wrong shows before.
+const AFTER_ALL_S: f64 = 30.0;
+/// What devices are to do behind the last transition is waited for so long, s.
+const LAST_EVENTS_S: f64 = 120.0;
 /// Longest simulated time, s.
 const LONGEST_S: f64 = 1800.0;
 /// Slips are found one after another, each in a run of its own.
@@ -60,7 +67,7 @@ pub fn replay(project: &Project, model: &Model, execution: &Execution) -> Result
     let mut followed = Followed::new(&project.system, &director.marks);
     let report = run(&line, &mut followed, Stepping::Events, &mut |_| {})?;
     let result = result.and_then(|seconds| match followed.astray().or(followed.unfinished().next()) {
-        Some(_) if report.simulated_s < seconds => Err("before all these events".into()),
+        Some(_) if report.simulated_s < seconds => Err("the run is over before all these events".into()),
         Some(machine) => {
             let name = &project.system.instances[machine].name;
             Err(format!("with these delays {name} does something else"))
@@ -175,13 +182,21 @@ impl<'a> Director<'a> {
         let mut ended: Vec<Option<u64>> = vec![None; count];
         let mut begun = vec![0_u64; count];
         let mut picks: Vec<(u32, u64)> = vec![(0, 0); count];
-        let mut late: Vec<Answer> = known.to_vec();
+        let mut late = Late::new(known, scan_ms);
+        let mut fired_at: Option<u64> = None;
         for scan in 0..(LONGEST_S * 1000.0) as u64 / scan_ms {
             let now_s = (scan * scan_ms) as f64 / 1000.0;
-            let Some(frontier) = followed.frontier() else {
-                self.keep(late);
-                return Ok(Some(now_s));
-            };
+            let frontier = followed.frontier().unwrap_or_else(|| {
+                fired_at.get_or_insert(scan);
+                usize::MAX
+            });
+            if let Some(at) = fired_at {
+                let waited_s = ((scan - at) * scan_ms) as f64 / 1000.0;
+                if due.iter().all(VecDeque::is_empty) || waited_s >= LAST_EVENTS_S {
+                    self.keep(late, &commands, &ended, scan);
+                    return Ok(Some((at * scan_ms) as f64 / 1000.0));
+                }
+            }
             // Nobody is told that a command has ended before all that are under way have: what is to happen in one scan
             // can happen then.
             let has_ended = |machine: usize| {
@@ -218,21 +233,16 @@ impl<'a> Director<'a> {
                             if at.holds.is_some_and(|holds| image[holds] == 0.0) {
                                 due[machine].pop_front();
                             }
-                        } else if self.is_there(from, ended[machine].is_some(), scan, begun[machine]) {
-                            let after_s = ((scan + 1 - since) * scan_ms) as f64 / 1000.0;
+                        } else if let Some(at) = self.slips_at(from, ended[machine], scan, begun[machine]) {
+                            let after_s = ((at + 1).saturating_sub(since).max(1) * scan_ms) as f64 / 1000.0;
                             self.line.scenario.slips.push(Slip { machine, pick, after_s });
                             return Ok(None);
                         }
                     }
                     Some(Due { what: What::Ends(_), .. }) if is_new && all_ended => {
                         due[machine].pop_front();
-                        let late_s = ((scan - ended[machine].unwrap_or(scan)) * scan_ms) as f64 / 1000.0;
-                        let command = commands[machine];
-                        match late.iter_mut().find(|a| (a.machine, a.command) == (machine, command)) {
-                            Some(answer) => answer.late_s = late_s,
-                            None => late.push(Answer { machine, command, late_s, error: None }),
-                        }
-                        ended[machine] = None;
+                        let scans = scan - ended[machine].take().unwrap_or(scan);
+                        late.put_off(machine, commands[machine], scans, 0.0);
                         continue;
                     }
                     _ => {}
@@ -249,14 +259,11 @@ impl<'a> Director<'a> {
                 {
                     given[machine] = outputs[machine][cmd];
                     // A command that is replaced before its answer comes.
-                    if let Some(end) = ended[machine] {
-                        let late_s = ((scan - end) * scan_ms) as f64 / 1000.0 + REPLACED_S;
-                        let command = commands[machine];
-                        late.push(Answer { machine, command, late_s, error: None });
+                    if let Some(end) = ended[machine].take() {
+                        late.put_off(machine, commands[machine], scan - end, REPLACED_S);
                     }
                     commands[machine] += 1;
                     begun[machine] = scan;
-                    ended[machine] = None;
                 }
             }
             if let Some(machine) = followed.astray() {
@@ -264,9 +271,9 @@ impl<'a> Director<'a> {
                 return Err(format!("{name} does something else at {now_s:.2} s"));
             }
             if answer.fault {
-                self.keep(late);
+                self.keep(late, &commands, &ended, scan);
                 return match followed.frontier() {
-                    None => Ok(Some(now_s)),
+                    None => Ok(Some(fired_at.map_or(now_s, |at| (at * scan_ms) as f64 / 1000.0))),
                     Some(_) => Err(format!(
                         "the line stops at {now_s:.2} s, before all these transitions have fired"
                     )),
@@ -280,20 +287,24 @@ impl<'a> Director<'a> {
         Err(format!("{} {verb} for something that does not come", waits.join(", ")))
     }
 
-    /// Answers that come at once, and well, need no entry.
-    fn keep(&mut self, answers: Vec<Answer>) {
-        let is_told = |answer: &Answer| answer.late_s > 0.0 || answer.error.is_some();
-        self.line.scenario.answers = answers.into_iter().filter(is_told).collect();
+    /// Of each machine how many commands it was given, and since when the answer to the last one is held back.
+    fn keep(&mut self, mut late: Late, commands: &[u32], ended: &[Option<u64>], scan: u64) {
+        for (machine, end) in ended.iter().enumerate() {
+            if let Some(end) = end {
+                late.put_off(machine, commands[machine], scan - end, AFTER_ALL_S);
+            }
+        }
+        self.line.scenario.answers = late.answers();
     }
 
-    /// Whether an arm is where it is to lose its item.
-    fn is_there(&self, from: From, has_ended: bool, scan: u64, begun: u64) -> bool {
+    /// In which scan an arm is where it is to lose its item, if that is known; its motion has begun and ended in these.
+    fn slips_at(&self, from: From, ended: Option<u64>, scan: u64, begun: u64) -> Option<u64> {
         match from {
-            From::Tool => true,
-            From::Goal | From::Via => has_ended,
-            From::BesideTool => (scan - begun) * u64::from(self.line.scan_ms) >= 200,
-            From::BesideGoal => has_ended,
-            From::OnTheWay => (scan - begun) * u64::from(self.line.scan_ms) >= 400,
+            From::Tool => Some(scan),
+            From::Goal | From::Via | From::BesideGoal => ended.map(|_| scan),
+            From::BesideTool => ((scan - begun) * u64::from(self.line.scan_ms) >= 200).then_some(scan),
+            // Far from both ends of its motion.
+            From::OnTheWay => ended.map(|end| begun + (end - begun) / 2),
         }
     }
 }

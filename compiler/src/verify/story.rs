@@ -61,7 +61,8 @@ impl Teller<'_> {
                 "all orders are made, and the line cannot come to rest although nothing has failed".into()
             }
             Violation::ComesToAStand => {
-                "the line comes to a stand for ever, although nothing has failed: each machine waits".into()
+                "the line comes to a stand for ever, although nothing has failed: nothing changes any more"
+                    .into()
             }
             Violation::WaitsForTime { instance } => format!(
                 "the whole line does nothing until a time of {} has passed, whose device has not failed",
@@ -109,22 +110,29 @@ impl Teller<'_> {
         }
     }
 
-    /// The execution scan by scan; scans in which nothing happens are left out.
+    /// The execution scan by scan; scans in which nothing happens are left out. An input that changes by itself is told where
+    /// it is read and has changed: in the beginning it is 0.
     pub fn tell(&self, execution: &Execution) -> String {
         let mut out = String::new();
+        let mut inputs = vec![0; self.model.inputs.len()];
         for (number, happened) in execution.scans.iter().enumerate() {
             for event in &happened.events {
                 let _ = writeln!(out, "{:>4}  {}", number + 1, self.event(happened, event));
             }
+            let is_last = number + 1 == execution.scans.len();
+            // Nothing but what was read can have brought the last scan about.
+            let tells_all = is_last && happened.events.is_empty() && happened.told.fired.is_empty();
+            for (input, value) in &happened.told.read {
+                if std::mem::replace(&mut inputs[*input], *value) != *value || tells_all {
+                    let _ = writeln!(out, "{:>4}  {} is {value}", number + 1, self.input(*input));
+                }
+            }
             for fired in &happened.told.fired {
                 let _ = writeln!(out, "{:>4}    {}", number + 1, self.fired(fired));
             }
-            // Nothing but what was read can have brought the last scan about.
-            let is_last = number + 1 == execution.scans.len();
-            if is_last && happened.events.is_empty() && happened.told.fired.is_empty() {
-                for (input, value) in &happened.told.read {
-                    let _ = writeln!(out, "{:>4}  {} is {value}", number + 1, self.input(*input));
-                }
+            // That of the last scan is the violation, or comes with it.
+            for stop in happened.stops.iter().filter(|_| !is_last) {
+                let _ = writeln!(out, "{:>4}    {}", number + 1, self.title(stop));
             }
         }
         out
@@ -142,6 +150,24 @@ impl Teller<'_> {
         let automaton = self.project.system.automaton_of(skipped.instance);
         let property = &automaton.properties[skipped.property];
         format!("{}: {} ({})", self.name(skipped.instance), property.text, self.place(property.place))
+    }
+
+    /// Whether a run shows a violation; none: it cannot tell.
+    pub fn occurs(&self, violation: &Violation, report: &Report) -> Option<bool> {
+        let code = |fault: usize| fault as i32 + 1;
+        match *violation {
+            Violation::Fault { instance, fault } => {
+                let fault_of =
+                    |(of, machine): &(i32, String)| *of == code(fault) && machine == self.name(instance);
+                Some(report.fault.as_ref().is_some_and(fault_of))
+            }
+            Violation::Warning { instance, fault } | Violation::MachineStops { instance, fault } => {
+                let mut alarms = report.alarms.iter();
+                Some(alarms.any(|alarm| alarm.code == code(fault) && alarm.machine == self.name(instance)))
+            }
+            Violation::NeverMade if report.finished => Some(false),
+            _ => None,
+        }
     }
 
     /// Why a run ended, as `commission` tells it.
