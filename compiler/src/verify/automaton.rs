@@ -58,6 +58,8 @@ pub struct Instance<'a> {
     pub copies: usize,
     /// Whether an input was read since [`Instance::begin_anew`] that the state does not tell behind the scan.
     pub asks_inputs: bool,
+    /// Outputs are read as they are put out.
+    pub sees_what_is_put_out: bool,
     /// Names of inputs of which nothing is known that could be searched.
     pub refused: Vec<String>,
 }
@@ -103,6 +105,7 @@ impl<'a> Instance<'a> {
             fixed_variables: HashMap::new(),
             copies: 1,
             asks_inputs: false,
+            sees_what_is_put_out: false,
             refused: Vec::new(),
         }
     }

@@ -48,7 +48,7 @@ pub struct Skipped {
 }
 
 impl Instance<'_> {
-    /// The properties that are searched; what they remember is laid out in the state.
+    /// The properties that are searched, first those that stop the machine; what they remember is laid out in the state.
     pub fn properties(
         &mut self,
         asked: &Asked,
@@ -56,6 +56,7 @@ impl Instance<'_> {
         skipped: &mut Vec<Skipped>,
     ) -> Vec<Property> {
         let mut found = Vec::new();
+        self.sees_what_is_put_out = true;
         for property in searched(self.automaton, asked) {
             let refused = self.refused.len();
             self.begin_anew();
@@ -92,6 +93,8 @@ impl Instance<'_> {
             let asks_inputs = self.asks_inputs;
             found.push(Property { check, fault: property.site.0, effect, reads, asks_inputs });
         }
+        self.sees_what_is_put_out = false;
+        found.sort_by_key(|property| property.effect != Effect::StopsMachine);
         found
     }
 
