@@ -231,8 +231,6 @@ fn told_with_panels(ports: &str) -> Vec<(&'static str, String, String)> {
     let device = format!(
         "device rig {{
              part l = lamp {{ at: pose; colour: red; }};
-             part x = axis {{ from: origin; along: x; range: [-0.5, 0.5]; speed: 0.5; acceleration: 2.0; }};
-             part arm = chain {{ on: x; tool_length: 0.1; rest: pose; }};
              {ports}
          }}
          automaton Rig on rig {{ initial -> Lit {{ }} state Lit {{ when after 1 s -> Lit {{ }} }} }}"
@@ -256,7 +254,9 @@ fn an_output_whose_value_by_hand_has_a_name_of_the_panel_is_told() {
         ("out step: bool = l.on;", "step", "the panel cannot give `step` by hand"),
         ("out jog: bool = l.on;", "jog", "`panel_jog`"),
         (
-            "out goal: point; out goal_x: bool = l.on; command 1 move(goal) = arm.joints(goal);",
+            "part x = axis { from: origin; along: x; range: [-0.5, 0.5]; speed: 0.5; acceleration: 2.0; };
+             part arm = chain { on: x; tool_length: 0.1; rest: pose; };
+             out goal: point; out goal_x: bool = l.on; command 1 move(goal) = arm.joints(goal);",
             "goal_x",
             "`panel_goal_x` is the value by hand of the output `goal`",
         ),
