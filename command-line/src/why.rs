@@ -322,7 +322,7 @@ fn node_json(node: &Node) -> Value {
 
 fn read_json(read: &Read) -> Value {
     json!({
-        "name": read.name, "value": read.value, "writers": read.writers,
+        "name": read.name, "value": read.value, "set": read.set, "writers": read.writers,
         "changed_s": read.changed.as_ref().map(|changed| changed.at_ms as f64 / 1000.0),
         "changed_by": read.changed.as_ref().map(|changed| &changed.by),
     })

@@ -9,6 +9,7 @@ mod step;
 use crate::device::Port;
 use crate::ir::{Element, FaultId, Scalar, System, Type, Value, VariableId};
 pub use properties::Alarm;
+use properties::Seen;
 use runtime_sim::device::{Direction, PortType, Stop};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 
@@ -55,6 +56,7 @@ struct Robot {
     alarms: Vec<Alarm>,
     /// It makes no steps, and its device is held.
     stopped: bool,
+    seen: Seen,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -91,6 +93,7 @@ impl<'a> Executor<'a> {
                     variables: vec![Value::Int(0); automaton.variables.len()],
                     alarms: vec![Alarm::NONE; automaton.alarms().count()],
                     stopped: false,
+                    seen: Seen::default(),
                 }
             })
             .collect();
@@ -121,6 +124,7 @@ impl<'a> Executor<'a> {
             variables: vec![Value::Int(0); system.model.automaton(instance.automaton).variables.len()],
             alarms: Vec::new(),
             stopped: false,
+            seen: Seen::default(),
         });
         Self::of_robots(system, robots.collect())
     }

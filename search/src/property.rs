@@ -18,17 +18,9 @@ pub struct Property {
 
 #[derive(Clone, Debug)]
 pub enum Check {
-    Always(Always),
+    Always(Int),
     Keep(Keep),
     Whenever(Whenever),
-}
-
-/// A condition that holds in each scan.
-#[derive(Clone, Debug)]
-pub struct Always {
-    pub condition: Int,
-    /// The same while the machine is stopped, if it reads outputs that have other values then.
-    pub stopped: Option<Int>,
 }
 
 /// What a violation does.
@@ -96,8 +88,13 @@ impl Scan<'_> {
             if !may_be_due && !is_touched(self) {
                 continue;
             }
-            let stands = program.stopped.is_some_and(|stopped| stopped.load(self.before) != 0);
+            let mut stops = false;
             for (number, property) in program.properties.iter().enumerate() {
+                if stops && property.effect != Effect::StopsMachine {
+                    self.stop(instance);
+                    stops = false;
+                }
+                let stands = program.stopped.is_some_and(|stopped| stopped.load(self.bytes) != 0);
                 let is_due =
                     is_touched(self) || self.written.meets(property.reads) || property.is_due_always();
                 if is_due && self.is_violated(instance, number, stands) {
@@ -107,25 +104,31 @@ impl Scan<'_> {
                         Effect::AsksOperator => return Err(Violation::Stop { fault }),
                         Effect::StopsMachine => {
                             self.noted.push(Violation::MachineStops { instance, fault });
-                            if let Some(stopped) = program.stopped {
-                                stopped.store(self.bytes, 1);
-                            }
-                            self.fired |= bit(instance);
+                            stops = true;
                         }
                         Effect::Warns => self.noted.push(Violation::Warning { instance, fault }),
                     }
                 }
             }
+            if stops {
+                self.stop(instance);
+            }
         }
         Ok(())
     }
 
-    /// `stands`: the instance was stopped before this scan.
+    fn stop(&mut self, instance: usize) {
+        if let Some(stopped) = self.model.instances[instance].stopped {
+            stopped.store(self.bytes, 1);
+        }
+        self.fired |= bit(instance);
+    }
+
+    /// `stands`: the instance is stopped.
     fn is_violated(&mut self, instance: usize, property: usize, stands: bool) -> bool {
         let program = &self.model.instances[instance];
         match &program.properties[property].check {
-            Check::Always(Always { stopped: Some(condition), .. }) if stands => !self.holds(condition),
-            Check::Always(Always { condition, .. }) => !self.decide_condition(instance, property, condition),
+            Check::Always(condition) => !self.decide_condition(instance, property, condition),
             Check::Keep(keep) => match &keep.memory {
                 None => !stands && self.has_changed(instance, property, keep),
                 Some(memory) => self.has_changed_since(keep, memory, stands),

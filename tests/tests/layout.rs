@@ -255,3 +255,53 @@ fn machines_in_any_order_begin_where_others_end() {
         );
     }
 }
+
+/// What is said of a device with these ports and commands in a layout with panels.
+fn told_with_panels(ports: &str) -> Vec<(&'static str, String, String)> {
+    let device = format!(
+        "device rig {{
+             part l = lamp {{ at: pose; colour: red; }};
+             {ports}
+         }}
+         automaton Rig on rig {{ initial -> Lit {{ }} state Lit {{ when after 1 s -> Lit {{ }} }} }}"
+    );
+    let layout = r#"{"panel": "machines", "robots": [{"name": "a", "type": "rig", "pose": [0, 0, 0]}]}"#;
+    let outcome = Texts { specs: vec![device], ..Texts::of_layout(layout) }.compile();
+    let errors = outcome.diagnostics.into_iter();
+    let told = errors.map(|d| {
+        let word = outcome.sources.text(d.place).to_string();
+        (d.code, word, format!("{} {}", d.message, d.help))
+    });
+    told.collect()
+}
+
+/// One error at the output that the text has, and no other.
+#[test]
+fn an_output_whose_value_by_hand_has_a_name_of_the_panel_is_told() {
+    let cases = [
+        ("out enable: bool = l.on stop false;", "enable", "`panel_enable` is an input of every panel"),
+        ("out mode: bool = l.on stop false;", "mode", "rename the output `mode`"),
+        ("out step: bool = l.on;", "step", "the panel cannot give `step` by hand"),
+        ("out jog: bool = l.on;", "jog", "`panel_jog`"),
+        (
+            "part x = axis { from: origin; along: x; range: [-0.5, 0.5]; speed: 0.5; acceleration: 2.0; };
+             part arm = chain { on: x; tool_length: 0.1; rest: pose; };
+             out goal: point; out goal_x: bool = l.on; command 1 move(goal) = arm.joints(goal);",
+            "goal_x",
+            "`panel_goal_x` is the value by hand of the output `goal`",
+        ),
+        (
+            "out panel_step: bool = l.on;",
+            "panel_step",
+            "names that begin with `panel_` are those of the panel",
+        ),
+    ];
+    for (ports, word, words) in cases {
+        let told = told_with_panels(ports);
+        assert_eq!(told.len(), 1, "{ports}: {told:?}");
+        let (code, found, text) = &told[0];
+        assert_eq!((*code, found.as_str()), ("E0701", word), "{text}");
+        assert!(text.contains(words), "{text}");
+    }
+    assert_eq!(told_with_panels("out verb: bool = l.on;"), []);
+}

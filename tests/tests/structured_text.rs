@@ -266,3 +266,47 @@ fn a_line_does_not_start_with_another_interval_than_its_own() {
         assert_eq!(at(&mut machine, interval * 152)[..2], [1.0, 0.0], "{interval} ms, and it says so");
     }
 }
+
+/// A lamp with a panel; the line runs or not.
+fn lamp_by_hand(runs: bool) -> Machine {
+    let texts = Texts {
+        layout: r#"{"panel": "machines", "robots": [{"name": "a", "type": "A", "pose": [0, 0, 0]}]}"#.into(),
+        specs: vec![
+            "device stand { part lamp = lamp { at: pose; colour: red; }; out on: bool = lamp.on stop false; }
+             automaton A on stand { initial -> S { } state S { when after 1 s -> S { on := not on; } } }"
+                .into(),
+        ],
+        ..Texts::default()
+    };
+    let outcome = texts.compile();
+    let project = outcome.project.unwrap_or_else(|| panic!("{:?}", outcome.diagnostics));
+    let mut machine = Machine::new(&emitted(&project.system, &outcome.sources).main).expect("a clean text");
+    ["run_permit", "a_panel_enable", "a_panel_on"].iter().for_each(|name| machine.set(name, 1.0));
+    machine.set("a_panel_mode", 2.0);
+    at(&mut machine, 0);
+    machine.set("start", f64::from(u8::from(runs)));
+    at(&mut machine, 10);
+    machine.set("a_panel_jog", 1.0);
+    assert_eq!(at(&mut machine, 20)[0], f64::from(u8::from(runs)));
+    assert_eq!(machine.get("a_on"), 1.0, "by hand");
+    machine
+}
+
+/// A late scan is for the panels as one without `run_permit`: the button has to be released first.
+#[test]
+fn a_scan_that_comes_late_ends_what_is_moved_by_hand() {
+    for (runs, fault) in [(false, 0.0), (true, 32765.0)] {
+        let mut machine = lamp_by_hand(runs);
+        assert_eq!(at(&mut machine, 3_600_020), [0.0, fault, 3_600_000.0]);
+        assert_eq!(machine.get("a_on"), 0.0, "late, runs: {runs}");
+        for scan in 1..=5 {
+            at(&mut machine, 3_600_020 + 10 * scan);
+            assert_eq!(machine.get("a_on"), 0.0, "the button is still pressed, runs: {runs}");
+        }
+        machine.set("a_panel_jog", 0.0);
+        at(&mut machine, 3_600_080);
+        machine.set("a_panel_jog", 1.0);
+        at(&mut machine, 3_600_090);
+        assert_eq!(machine.get("a_on"), 1.0, "released and pressed, runs: {runs}");
+    }
+}

@@ -139,3 +139,46 @@ fn clauses_become_true_no_later_than_their_transition_fires() {
     assert!(became.transitions[by].1.iter().all(|(_, since)| since.is_some_and(|since| since <= left)));
     assert!(left > picture.at_ms);
 }
+
+/// A press whose curtain is interrupted while it goes down, and the values of its properties in words.
+fn press_at(at_s: f64) -> Vec<String> {
+    let texts = Texts {
+        layout: r#"{"robots": [{"name": "press", "type": "Press", "pose": [0, 0, 0]}]}"#.into(),
+        specs: vec![
+            "device press {
+                 part ram = cylinder { extend: 100 ms; retract: 100 ms; };
+                 part curtain = button { normally_closed: true; };
+                 in free: bool = curtain.on;
+                 out down: bool = ram.extend stop false;
+             }
+             automaton Press on press {
+                 invariant free or not down else stop machine \"somebody reaches in\";
+                 initial -> Down { down := true; }
+                 state Down { when after 10 s -> Down { down := true; } }
+             }"
+            .into(),
+        ],
+        scenario: Some(
+            r#"{"time_limit_s": 3, "operator": [{"robot": "press", "part": "curtain", "at_s": 1, "for_s": 2}]}"#.into(),
+        ),
+        ..Texts::default()
+    };
+    let outcome = texts.compile();
+    let found = autogen_tests::plain(&outcome.sources, &outcome.diagnostics);
+    let project = outcome.project.unwrap_or_else(|| panic!("{found}"));
+    let picture = picture(&project, (at_s * 100.0) as u64, Stepping::EveryScan);
+    why::machine(&picture.machines[0], &outcome.sources).lines().map(|line| line.trim().to_string()).collect()
+}
+
+/// Properties are shown with the outputs that they saw, so they do not contradict their alarms.
+#[test]
+fn outputs_of_properties_are_shown_as_they_are_put_out() {
+    let raised = press_at(1.0).join("\n");
+    assert!(raised.contains(", active,"), "{raised}");
+    assert!(raised.contains("FAILS  free or not down"), "{raised}");
+    assert!(raised.contains("down is true, by press at 0.0"), "{raised}");
+    let after = press_at(1.5).join("\n");
+    assert!(after.contains(", no longer active,"), "{after}");
+    assert!(after.contains("ok     free or not down"), "{after}");
+    assert!(after.contains("down is put out as false; set is true, by press at 0.0"), "{after}");
+}

@@ -4,9 +4,11 @@
 //! that a screen writes, or switches.
 
 use super::head;
+use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 use crate::spec::ast::{self, Device, DeviceMember, Expr, ExprKind, Name, Scalar, Type};
 use runtime_sim::device::Direction;
+use std::collections::BTreeMap;
 
 pub const ENABLE: &str = "panel_enable";
 pub const MODE: &str = "panel_mode";
@@ -39,10 +41,53 @@ pub fn inputs_for(output: &str, is_point: bool) -> Vec<String> {
     suffixes.iter().map(|suffix| format!("panel_{output}{suffix}")).collect()
 }
 
-/// Gives every device with inputs and outputs a panel.
-pub fn add(files: &mut [(FileId, ast::File)]) {
-    let devices = files.iter_mut().flat_map(|(_, file)| &mut file.devices);
-    devices.filter(|device| !device.is_assembly).for_each(equip);
+/// Gives every device with inputs and outputs a panel. Nothing is added if names meet.
+pub fn add(files: &mut [(FileId, ast::File)]) -> Vec<Diagnostic> {
+    let mut devices: Vec<&mut Device> = files
+        .iter_mut()
+        .flat_map(|(_, file)| &mut file.devices)
+        .filter(|device| !device.is_assembly)
+        .collect();
+    let found: Vec<Diagnostic> = devices.iter().flat_map(|device| clashes(device)).collect();
+    if found.is_empty() {
+        devices.iter_mut().for_each(|device| equip(device));
+    }
+    found
+}
+
+/// Outputs whose values by hand would have a name that the panel has already, and names that the text gives to something
+/// else.
+fn clashes(device: &Device) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    let own = [ENABLE, MODE, STEP, JOG].into_iter().chain((!device.commands.is_empty()).then_some(VERB));
+    let mut taken: BTreeMap<String, String> =
+        own.map(|name| (name.to_string(), "an input of every panel".into())).collect();
+    for output in device.ports.iter().filter(|port| port.direction == Direction::Output) {
+        let name = &output.name.value;
+        let inputs = inputs_for(name, matches!(output.ty.scalar, Scalar::Point));
+        if let Some((input, other)) = inputs.iter().find_map(|input| Some((input, taken.get(input)?))) {
+            let message = format!("the panel cannot give `{name}` by hand: `{input}` is {other}");
+            let help =
+                format!("rename the output `{name}`, or leave out \"panel\": \"machines\" in the layout");
+            found.push(Diagnostic::new("E0701", output.name.span, message).help(help));
+        }
+        for input in inputs {
+            taken.entry(input).or_insert_with(|| format!("the value by hand of the output `{name}`"));
+        }
+    }
+    let members = device.members.iter().map(|member| match member {
+        DeviceMember::Define(define) => &define.name,
+        DeviceMember::Part(part) => &part.name,
+    });
+    let constants = device.constants.iter().map(|constant| &constant.name);
+    let declared = device.ports.iter().map(|port| &port.name).chain(members).chain(constants);
+    for name in declared {
+        if let Some(other) = taken.get(&name.value) {
+            let message = format!("`{}` is {other}", name.value);
+            found.push(Diagnostic::new("E0701", name.span, message).help(another_name(&name.value)));
+        }
+    }
+    found
 }
 
 fn equip(device: &mut Device) {

@@ -1,6 +1,6 @@
 //! What comes behind the steps: properties, and the alarms that they raise.
 
-use super::Executor;
+use super::{Executor, Robot};
 use crate::ir::{Expr, FaultId, Property, PropertyKind, Severity, Value};
 use runtime_sim::scan::SystemOutputs;
 
@@ -15,6 +15,29 @@ pub struct Alarm {
     /// Scans in which it was raised first and last.
     pub first: i32,
     pub last: i32,
+}
+
+/// The outputs that are masked, as they were put out at the last check of properties; empty before the first one.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Seen {
+    by_stops: Vec<Vec<Value>>,
+    by_others: Vec<Vec<Value>>,
+}
+
+impl Seen {
+    fn of(&self, severity: Severity) -> &Vec<Vec<Value>> {
+        match severity {
+            Severity::Machine => &self.by_stops,
+            Severity::Line | Severity::Warning => &self.by_others,
+        }
+    }
+
+    fn of_mut(&mut self, severity: Severity) -> &mut Vec<Vec<Value>> {
+        match severity {
+            Severity::Machine => &mut self.by_stops,
+            Severity::Line | Severity::Warning => &mut self.by_others,
+        }
+    }
 }
 
 impl Alarm {
@@ -57,59 +80,99 @@ impl Executor<'_> {
         self.robots[robot].stopped
     }
 
-    /// All properties of an instance, which see what is put out; `starts` says whether there is an edge of `start`.
+    /// All properties of an instance, which see what is put out: first those that stop it, then whether it continues, then
+    /// the others. `starts` says whether there is an edge of `start`.
     pub(super) fn properties(&mut self, robot: usize, starts: bool) -> Result<(), FaultId> {
-        let system = self.system;
-        let masked = &system.automaton_of(robot).masked;
-        if masked.is_empty() {
-            return self.properties_of_values(robot, starts);
+        let was_stopped = self.robots[robot].stopped;
+        let raised =
+            self.seeing_what_is_put_out(robot, Severity::Machine, |this| this.stops(robot, was_stopped));
+        if raised {
+            self.robots[robot].stopped = true;
+        } else if starts && was_stopped && !self.is_held(robot) && self.may_go_on(robot) {
+            self.robots[robot].stopped = false;
         }
-        let runs = !self.robots[robot].stopped;
-        let put: Vec<Vec<Value>> = masked.iter().map(|port| self.put_out(robot, *port, runs)).collect();
-        let exchange = |ports: &mut [Vec<Value>], values: Vec<Vec<Value>>| -> Vec<Vec<Value>> {
-            let exchanged = masked.iter().zip(values);
-            exchanged.map(|(port, values)| std::mem::replace(&mut ports[*port], values)).collect()
-        };
-        let set = exchange(&mut self.robots[robot].ports, put);
-        let checked = self.properties_of_values(robot, starts);
-        exchange(&mut self.robots[robot].ports, set);
-        checked
+        self.seeing_what_is_put_out(robot, Severity::Line, |this| this.others(robot, was_stopped))
     }
 
-    fn properties_of_values(&mut self, robot: usize, starts: bool) -> Result<(), FaultId> {
-        let system = self.system;
-        let automaton = system.automaton_of(robot);
-        let was_stopped = self.robots[robot].stopped;
-        let waits = !was_stopped && !self.is_single(robot);
-        let mut alarm = 0;
-        for property in &automaton.properties {
-            let violated = self.is_violated(robot, property, was_stopped, waits);
-            if !property.is_alarm() {
-                if violated {
-                    return Err(property.site);
-                }
-                continue;
-            }
-            let scan = self.scan;
-            let raised = self.robots[robot].alarms[alarm].note(violated, scan);
-            if raised && property.severity == Severity::Machine {
-                self.robots[robot].stopped = true;
-            }
-            alarm += 1;
+    /// Outputs are meanwhile as they are put out, and are kept so for [`Self::exchange_seen`].
+    fn seeing_what_is_put_out<T>(
+        &mut self,
+        robot: usize,
+        by: Severity,
+        look: impl FnOnce(&mut Self) -> T,
+    ) -> T {
+        let masked = &self.system.automaton_of(robot).masked;
+        let runs = !self.robots[robot].stopped;
+        let put = masked.iter().map(|port| self.put_out(robot, *port, runs)).collect();
+        *self.robots[robot].seen.of_mut(by) = put;
+        self.exchange_seen(robot, by);
+        let found = look(self);
+        self.exchange_seen(robot, by);
+        found
+    }
+
+    /// Exchanges the outputs with what properties of this severity saw at their last check, and back.
+    pub(crate) fn exchange_seen(&mut self, robot: usize, by: Severity) {
+        let masked = &self.system.automaton_of(robot).masked;
+        let Robot { ports, seen, .. } = &mut self.robots[robot];
+        for (port, values) in masked.iter().zip(seen.of_mut(by)) {
+            std::mem::swap(&mut ports[*port], values);
         }
-        let mut stops = automaton.alarms().zip(&self.robots[robot].alarms);
-        let is_held = stops.any(|(p, a)| p.severity == Severity::Machine && (a.active || !a.acknowledged));
-        if starts && was_stopped && !is_held && self.may_go_on(robot) {
-            self.robots[robot].stopped = false;
+    }
+
+    /// The other value of an output for [`Self::exchange_seen`].
+    pub(crate) fn exchanged(&self, robot: usize, by: Severity, port: usize, index: usize) -> Option<Value> {
+        let mut masked = self.system.automaton_of(robot).masked.iter();
+        let number = masked.position(|masked| *masked == port)?;
+        self.robots[robot].seen.of(by).get(number)?.get(index).copied()
+    }
+
+    /// The properties that stop the instance; whether one of them raises its alarm.
+    fn stops(&mut self, robot: usize, is_at_rest: bool) -> bool {
+        let system = self.system;
+        let mut raises = false;
+        for (alarm, property) in system.automaton_of(robot).alarms().enumerate() {
+            if property.severity == Severity::Machine {
+                raises |= self.is_raised(robot, property, alarm, is_at_rest);
+            }
+        }
+        raises
+    }
+
+    /// The properties that do not stop it.
+    fn others(&mut self, robot: usize, was_stopped: bool) -> Result<(), FaultId> {
+        let system = self.system;
+        let is_at_rest = was_stopped || self.robots[robot].stopped;
+        let mut alarm = 0;
+        for property in &system.automaton_of(robot).properties {
+            match property.severity {
+                Severity::Line if self.is_violated(robot, property, is_at_rest) => return Err(property.site),
+                Severity::Warning => _ = self.is_raised(robot, property, alarm, is_at_rest),
+                Severity::Line | Severity::Machine => {}
+            }
+            alarm += usize::from(property.is_alarm());
         }
         Ok(())
     }
 
-    fn is_violated(&mut self, robot: usize, property: &Property, stopped: bool, waits: bool) -> bool {
+    /// Whether the alarm of a property is raised in this scan.
+    fn is_raised(&mut self, robot: usize, property: &Property, alarm: usize, is_at_rest: bool) -> bool {
+        let violated = self.is_violated(robot, property, is_at_rest);
+        let scan = self.scan;
+        self.robots[robot].alarms[alarm].note(violated, scan)
+    }
+
+    /// An alarm that stops it is active or not acknowledged.
+    fn is_held(&self, robot: usize) -> bool {
+        let mut alarms = self.system.automaton_of(robot).alarms().zip(&self.robots[robot].alarms);
+        alarms.any(|(p, a)| p.severity == Severity::Machine && (a.active || !a.acknowledged))
+    }
+
+    fn is_violated(&mut self, robot: usize, property: &Property, is_at_rest: bool) -> bool {
         match &property.kind {
             PropertyKind::Always(condition) => !self.holds(robot, condition),
             PropertyKind::Keep { condition, values, same, held } => {
-                let holds = !stopped && self.holds(robot, condition);
+                let holds = !is_at_rest && self.holds(robot, condition);
                 let held_before = self.robots[robot].locals[*held][0] == Value::Bool(true);
                 let violated = held_before && holds && !self.holds(robot, same);
                 self.remember(robot, *held, Value::Bool(holds));
@@ -129,7 +192,7 @@ impl Executor<'_> {
                     self.remember(robot, kept.before, value);
                     differs
                 });
-                let now = if !waits || self.holds(robot, goal) {
+                let now = if is_at_rest || self.is_single(robot) || self.holds(robot, goal) {
                     -1
                 } else if before >= 0 && !changed {
                     before.saturating_add(self.system.scan_ms)

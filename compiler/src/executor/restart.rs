@@ -1,6 +1,6 @@
 //! Going on after a loss of power.
 
-use super::{Alarm, Executor, Status};
+use super::{Alarm, Executor, Seen, Status};
 use crate::ir::{Element, Value};
 use runtime_sim::device::Direction;
 
@@ -27,6 +27,7 @@ impl Executor<'_> {
         let kept = &mut self.robots[robot];
         kept.elapsed = 0;
         kept.stopped = false;
+        kept.seen = Seen::default();
         kept.alarms.fill(Alarm::NONE);
         for (number, local) in automaton.locals.iter().enumerate() {
             if !retained.locals.contains(&number) {

@@ -97,6 +97,14 @@ impl Automaton {
         self.modes.is_some() || self.properties.iter().any(|property| property.severity == Severity::Machine)
     }
 
+    /// Some properties that do not stop an instance count for nothing while it is stopped.
+    pub fn has_pauses(&self) -> bool {
+        let pauses = |property: &Property| {
+            property.severity != Severity::Machine && !matches!(property.kind, PropertyKind::Always(_))
+        };
+        self.can_stop() && self.properties.iter().any(pauses)
+    }
+
     /// Words of the trace of its alarms: for each of them active, acknowledged, count, first, last; and before them
     /// whether the instance is stopped, if it can be.
     pub fn alarm_words(&self) -> usize {

@@ -46,8 +46,13 @@ fn unstopped(automaton: &Automaton) -> Vec<Diagnostic> {
         let Some(place) = port.place.filter(|_| moves && port.stop == Stop::Hold) else { continue };
         let value = if port.ty == PortType::Bool { "false" } else { "0" };
         let message = format!("`{}` keeps its value while the line is stopped", port.name);
-        let mut told = Diagnostic::new("W0113", place, message)
-            .note(format!("it drives the {kind} `{name}`: what it moves goes on"));
+        let acts_by_edge = ACT_BY_EDGE.contains(kind);
+        let effect = match acts_by_edge {
+            true => "which acts when its level rises",
+            false => "and what it moves goes on",
+        };
+        let mut told =
+            Diagnostic::new("W0113", place, message).note(format!("it drives the {kind} `{name}`, {effect}"));
         if is_retained {
             let by = format!(
                 "`{}` retains it: after a loss of power it acts before the line is started",
@@ -55,7 +60,11 @@ fn unstopped(automaton: &Automaton) -> Vec<Diagnostic> {
             );
             told = told.note(by);
         }
-        found.push(told.help(format!("write `stop {value}` at its end")));
+        let stop = format!("write `stop {value}` at its end");
+        found.push(told.help(match acts_by_edge {
+            true => format!("{stop}, and let the automaton set {value} once it has acted: with a stop value it rises again whenever the line continues"),
+            false => stop,
+        }));
     }
     found
 }

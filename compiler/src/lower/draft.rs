@@ -138,7 +138,11 @@ impl Draft {
         let names: BTreeSet<String> = machines.iter().map(|(_, automaton)| automaton.name.clone()).collect();
         let mut used = check::used(files, &names);
         if layout.panel == Panel::Machines {
-            panel::add(&mut used);
+            let clashes = panel::add(&mut used);
+            if !clashes.is_empty() {
+                self.diagnostics.extend(clashes);
+                return None;
+            }
         }
         if !scenario.is_built_in(sources) {
             let automata = checked.model().automata.iter().filter(|a| names.contains(&a.name));

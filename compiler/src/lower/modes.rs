@@ -32,6 +32,7 @@ impl Builder<'_> {
         let is_not_single = unequal(mode, panel::SINGLE_STEP);
         let steps = self.truth("steps", false, "Transitions are tested in this scan.");
         let step_before = self.truth("step_before", true, "`panel_step` in the scan before.");
+        let stopped_before = self.truth("stopped_before", false, "It was stopped before this scan.");
         let single_before =
             self.truth("single_before", false, "Single step was selected in the scan before.");
         let jog_ready = self.truth(
@@ -55,6 +56,7 @@ impl Builder<'_> {
         });
         restart::add_abandoned(self.automaton);
         let mut actions = vec![
+            self.set(stopped_before, truth_of(ExprKind::Stopped)),
             when(
                 "Not enabled, or in manual: it is stopped until start.",
                 or(not(enable.clone()), is_manual.clone()),
@@ -100,7 +102,7 @@ impl Builder<'_> {
             actions,
             steps,
             is_single,
-            may_go_on: and(vec![enable, is_not_manual]),
+            may_go_on: and(vec![self.read(stopped_before), enable, is_not_manual]),
             by_hand,
             moved_by_hand,
             commanded,

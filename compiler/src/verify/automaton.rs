@@ -16,7 +16,7 @@ use autogen_search::program::{
     Update,
 };
 use autogen_search::value::Var;
-use runtime_sim::device::{Direction, Stop};
+use runtime_sim::device::Direction;
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
@@ -58,8 +58,8 @@ pub struct Instance<'a> {
     pub copies: usize,
     /// Whether an input was read since [`Instance::begin_anew`] that the state does not tell behind the scan.
     pub asks_inputs: bool,
-    /// Expressions read what is put out while the machine is stopped.
-    pub is_stopped: bool,
+    /// Outputs are read as they are put out.
+    pub sees_what_is_put_out: bool,
     /// Names of inputs of which nothing is known that could be searched.
     pub refused: Vec<String>,
 }
@@ -105,7 +105,7 @@ impl<'a> Instance<'a> {
             fixed_variables: HashMap::new(),
             copies: 1,
             asks_inputs: false,
-            is_stopped: false,
+            sees_what_is_put_out: false,
             refused: Vec::new(),
         }
     }
@@ -150,14 +150,6 @@ impl<'a> Instance<'a> {
         let ports = &self.automaton.device.ports;
         let direction = ports[port].direction;
         if direction == Direction::Output {
-            if self.is_stopped
-                && self.automaton.masked.contains(&port)
-                && let Stop::Value(stop) = ports[port].stop
-            {
-                let value = Value::from_words(Scalar::from(ports[port].ty), &[stop]);
-                let elements = self.line.system.model.elements(ports[port].extent.into());
-                return Stored::Fixed(vec![value; elements]);
-            }
             return match &self.line.outputs[self.number][port] {
                 Some((vars, low)) => Stored::Vars(vars.clone(), *low),
                 None => Stored::Signal(Signal::Unbounded),

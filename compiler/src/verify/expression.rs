@@ -22,7 +22,10 @@ impl Instance<'_> {
         let pair = |this: &mut Self, a: &Expr, b: &Expr| Box::new([this.int(a), this.int(b)]);
         match &expr.kind {
             ExprKind::Constant(value) => Int::Constant(whole(*value)),
-            ExprKind::Read(place) => self.read_int(place),
+            ExprKind::Read(place) => {
+                let set = self.read_int(place);
+                self.whole_put_out(place, set)
+            }
             ExprKind::Variable(variable) => match self.fixed_variables.get(&variable.0) {
                 Some(value) => Int::Constant(*value),
                 None => Int::Variable(variable.0),
@@ -91,10 +94,13 @@ impl Instance<'_> {
             ExprKind::Constant(Value::Real(value)) => Real::Constant(*value),
             ExprKind::Constant(value) => Real::Constant(f64::from(whole(*value))),
             ExprKind::Read(place) => match self.stored(place) {
-                (Stored::Vars(vars, _), index) => match index {
-                    Int::Constant(index) => element(&vars, index).map_or(Real::Constant(0.0), Real::Load),
-                    index => Real::Element(vars.into(), Box::new(index)),
-                },
+                (Stored::Vars(vars, _), index) => {
+                    let set = match index {
+                        Int::Constant(index) => element(&vars, index).map_or(Real::Constant(0.0), Real::Load),
+                        index => Real::Element(vars.into(), Box::new(index)),
+                    };
+                    self.real_put_out(place, set)
+                }
                 (Stored::Fixed(values), index) => match index {
                     Int::Constant(index) => Real::Constant(element(&values, index).map_or(0.0, real)),
                     index => Real::Table(values.into_iter().map(real).collect(), Box::new(index)),

@@ -10,6 +10,7 @@ mod memory;
 mod model;
 mod plant;
 mod properties;
+mod put_out;
 pub mod replay;
 pub mod scenario;
 mod situation;

@@ -6,7 +6,7 @@ use super::{Asked, Remembered, Warnings};
 use crate::ir::{self, Automaton, Expr, ExprKind, Place, PropertyKind, Scalar, Severity, Value};
 use crate::library;
 use autogen_search::program::Cells;
-use autogen_search::property::{self, Always, Check, Effect, Keep, Property, Whenever};
+use autogen_search::property::{self, Check, Effect, Keep, Property, Whenever};
 
 /// Which properties of a type are searched. Of obligations those are left out whose violation calls the operator, because
 /// that is meant, and `answer` (which alone begins anew): contracts say that every command can be answered.
@@ -48,7 +48,7 @@ pub struct Skipped {
 }
 
 impl Instance<'_> {
-    /// The properties that are searched; what they remember is laid out in the state.
+    /// The properties that are searched, first those that stop the machine; what they remember is laid out in the state.
     pub fn properties(
         &mut self,
         asked: &Asked,
@@ -56,11 +56,12 @@ impl Instance<'_> {
         skipped: &mut Vec<Skipped>,
     ) -> Vec<Property> {
         let mut found = Vec::new();
+        self.sees_what_is_put_out = true;
         for property in searched(self.automaton, asked) {
             let refused = self.refused.len();
             self.begin_anew();
             let check = match &property.kind {
-                PropertyKind::Always(condition) => Check::Always(self.always(condition)),
+                PropertyKind::Always(condition) => Check::Always(self.int(condition)),
                 PropertyKind::Keep { condition, values, .. } => {
                     self.keep(condition, values.iter().map(|kept| &kept.value), asked, memory)
                 }
@@ -92,19 +93,9 @@ impl Instance<'_> {
             let asks_inputs = self.asks_inputs;
             found.push(Property { check, fault: property.site.0, effect, reads, asks_inputs });
         }
+        self.sees_what_is_put_out = false;
+        found.sort_by_key(|property| property.effect != Effect::StopsMachine);
         found
-    }
-
-    fn always(&mut self, condition: &Expr) -> Always {
-        let is_masked = self.line.stopped[self.number].is_some() && !self.automaton.masked.is_empty();
-        let stopped = is_masked.then(|| {
-            self.is_stopped = true;
-            let condition = self.int(condition);
-            self.is_stopped = false;
-            self.begin_anew();
-            condition
-        });
-        Always { condition: self.int(condition), stopped }
     }
 
     fn keep<'a>(

@@ -5,7 +5,7 @@ use super::watch::{Stopped, Watch};
 use super::writers::Writers;
 use super::{Await, Fault, Machine, Node, Picture, Read, Tested, Verdict};
 use crate::device::panel;
-use crate::ir::{Binder, Clause, Domain, Expr, ExprKind, Operator, Value, VariableId};
+use crate::ir::{Binder, Clause, Domain, Expr, ExprKind, Operator, Severity, Value, VariableId};
 use runtime_sim::scan::Controllers;
 
 /// Candidates of a binder or a quantifier that are checked one by one.
@@ -17,7 +17,8 @@ const MOST_NODES: usize = 500;
 pub fn picture(watch: &mut Watch, scan: u64) -> Picture {
     let writers = Writers::new(watch.system);
     let machines = (0..watch.system.instances.len()).map(|robot| {
-        let mut look = Look { watch, writers: &writers, robot, scan, awaits: Vec::new(), nodes: 0 };
+        let mut look =
+            Look { watch, writers: &writers, robot, scan, awaits: Vec::new(), nodes: 0, seen_by: None };
         look.machine()
     });
     let machines = machines.collect();
@@ -43,6 +44,8 @@ pub(super) struct Look<'w, 'a> {
     pub(super) scan: u64,
     pub(super) awaits: Vec<Await>,
     nodes: usize,
+    /// Outputs are as the properties of this severity have seen them.
+    pub(super) seen_by: Option<Severity>,
 }
 
 /// The sides of `a and b and c`, or of the same with `or`.

@@ -118,6 +118,8 @@ pub struct Read {
     /// `agv2.held`, `slot[3]`
     pub name: String,
     pub value: String,
+    /// What the automaton has set, of an output at which another value is put out.
+    pub set: Option<String>,
     /// What has changed it last; none: it is as it was at the beginning.
     pub changed: Option<Changed>,
     /// Who may change it as it is now.

@@ -16,7 +16,11 @@ impl<'a> Look<'_, 'a> {
             alarm += usize::from(property.is_alarm());
             let waiting = self.waiting(property);
             for standing in standing.into_iter().chain(waiting) {
+                self.seen_by = Some(property.severity);
+                self.watch.executor.exchange_seen(self.robot, property.severity);
                 let clauses = self.clauses(property);
+                self.watch.executor.exchange_seen(self.robot, property.severity);
+                self.seen_by = None;
                 found.push(Promise {
                     text: property.text.clone(),
                     told: system.model.faults[property.site.0].text.clone(),
@@ -61,7 +65,7 @@ impl<'a> Look<'_, 'a> {
         (waited < within).then(|| Standing::Waits { since_ms, until_ms: since_ms + within as u64 })
     }
 
-    /// What decides whether it is violated, as it is now.
+    /// What decides whether it is violated: outputs as it has seen them, all else as it is now.
     fn clauses(&mut self, property: &'a Property) -> Vec<Node> {
         let mut nodes = Vec::new();
         let mut wanted = |look: &mut Self, condition: &'a Expr, word: &str| {

@@ -48,7 +48,7 @@ impl<'a> Look<'_, 'a> {
                     self.awaits(holds, Await::Time { text, left_ms });
                 }
                 let value = format!("{} s", f64::from(stay) / 1000.0);
-                found.push(Read { name: STAY.into(), value, changed: None, writers: vec![] });
+                found.push(Read { name: STAY.into(), value, set: None, changed: None, writers: vec![] });
             }
             ExprKind::Define(define) => {
                 let value = &self.words().automaton.defines[*define].value;
@@ -117,7 +117,14 @@ impl<'a> Look<'_, 'a> {
             Element::Local { .. } | Element::Port { .. } => system.name_of(element),
         };
         let value = system.shown_value(ty, watch.executor.element(element));
-        Read { name, value, changed, writers }
+        let set = self.set(element).map(|set| system.shown_value(ty, set)).filter(|set| *set != value);
+        Read { name, value, set, changed, writers }
+    }
+
+    /// What the automaton has set, of an output that properties see as it is put out.
+    fn set(&self, element: Element) -> Option<Value> {
+        let Element::Port { robot, port, index } = element else { return None };
+        self.watch.executor.exchanged(robot, self.seen_by?, port, index)
     }
 
     /// Where a place is kept. None for what the layout fixes, which nobody waits for.
@@ -165,7 +172,7 @@ impl<'a> Look<'_, 'a> {
                 .map_or(String::new(), |c| format!(" since {:.2} s", c.at_ms as f64 / 1000.0));
             self.awaits(holds, Await::Command { text: format!("its command {value}{since}") });
         }
-        let read = Read { name: COMMAND.into(), value, changed, writers: Vec::new() };
+        let read = Read { name: COMMAND.into(), value, set: None, changed, writers: Vec::new() };
         if !found.contains(&read) {
             found.push(read);
         }

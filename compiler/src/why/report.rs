@@ -128,7 +128,16 @@ fn read_text(read: &Read) -> String {
 
 /// `agv2.held is true, by gantry at 118.30 s`
 fn value_text(read: &Read) -> String {
-    let Read { name, value, changed, .. } = read;
+    let Read { name, value, set, changed, .. } = read;
+    if let Some(set) = set {
+        let set = Read {
+            name: format!("{name} is put out as {value}; set"),
+            value: set.clone(),
+            set: None,
+            ..read.clone()
+        };
+        return value_text(&set);
+    }
     match (name.as_str(), changed) {
         (COMMAND, Some(Changed { at_ms, .. })) => format!("{name}: {value}, at {}", seconds(*at_ms)),
         (COMMAND, None) => format!("{name}: {value}"),

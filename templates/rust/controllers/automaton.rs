@@ -221,31 +221,67 @@ impl<'a> {{ ty }}<'a> {
         if running{% if can_stop %} && !self.stopped{% endif %} { self.outputs } else { self.outputs.stopped() }
         {%- endif %}
     }
-    {%- if !properties.is_empty() %}
+    {%- if can_stop || !checks.others.is_empty() %}
 
-    {%- if !masks.is_empty() %}
-    /// Checks the properties, after the steps of every scan. They see the outputs that are put out.
-    pub fn properties(&mut self, {{ property_parameters }}) -> Result<(), Fault> {
+    /// Checks the properties, after the steps of every scan{% if !masks.is_empty() %}. They see the outputs that are put out{% endif %}.
+    pub fn properties(&{% if remembers %}mut {% endif %}self, {{ property_parameters }}) -> Result<(), Fault> {
+        {%- if can_stop %}
+        let at_rest = self.stopped;
+        {%- endif %}
+        {%- if !masks.is_empty() %}
         let set = self.outputs;
+        {%- if !checks.stops.is_empty() %}
+        self.put_out();
+        {%- endif %}
+        {%- endif %}
+        {%- for check in checks.stops %}
+        {{ check }}
+        {%- endfor %}
+        {%- if let Some(continues) = checks.continues %}
+        {{ continues }}
+        {%- endif %}
+        {%- if checks.has_pauses %}
+        let at_rest = at_rest || self.stopped;
+        {%- endif %}
+        {%- if masks.is_empty() %}
+        {%- for check in checks.others %}
+        {{ check }}
+        {%- endfor %}
+        Ok(())
+        {%- else %}
+        {%- if !checks.stops.is_empty() %}
+        self.outputs = set;
+        {%- endif %}
+        {%- if checks.others.is_empty() %}
+        Ok(())
+        {%- else %}
+        self.put_out();
+        let checked = self.check_others({% if checks.has_pauses %}at_rest, {% endif %}{{ other_arguments }});
+        self.outputs = set;
+        checked
+        {%- endif %}
+        {%- endif %}
+    }
+    {%- if !masks.is_empty() %}
+
+    /// Sets the outputs that properties read to what is put out.
+    fn put_out(&mut self) {
         let put = self.published(true);
         {%- for output in masks %}
         self.outputs.{{ output }} = put.{{ output }};
         {%- endfor %}
-        let checked = self.check_properties({{ property_arguments }});
-        self.outputs = set;
-        checked
     }
+    {%- if !checks.others.is_empty() %}
 
-    fn check_properties(&mut self, {{ property_parameters }}) -> Result<(), Fault> {
-    {%- else %}
-    /// Checks the properties, after the steps of every scan.
-    pub fn properties(&{% if remembers %}mut {% endif %}self, {{ property_parameters }}) -> Result<(), Fault> {
-    {%- endif %}
-        {%- for property in properties %}
-        {{ property }}
+    /// Checks the properties that do not stop it.
+    fn check_others(&mut self{% if checks.has_pauses %}, at_rest: bool{% endif %}{% if !other_parameters.is_empty() %}, {{ other_parameters }}{% endif %}) -> Result<(), Fault> {
+        {%- for check in checks.others %}
+        {{ check }}
         {%- endfor %}
         Ok(())
     }
+    {%- endif %}
+    {%- endif %}
     {%- endif %}
     {%- if can_stop || !counters.is_empty() %}
 

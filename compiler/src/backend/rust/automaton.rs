@@ -37,9 +37,11 @@ struct Module {
     commands: bool,
     done: bool,
     failed: bool,
-    properties: Vec<String>,
+    checks: property::Checks,
     property_parameters: String,
-    property_arguments: String,
+    /// Those of the properties that do not stop the robot.
+    other_parameters: String,
+    other_arguments: String,
     /// Outputs of which properties see what is put out.
     masks: Vec<String>,
     /// Properties keep something from scan to scan.
@@ -144,9 +146,10 @@ pub fn module(context: &Context) -> String {
         commands,
         done: asked.done,
         failed: asked.failed,
-        properties: property::properties(context),
+        checks: property::checks(context),
         property_parameters: context.parameters(&property::uses(context)),
-        property_arguments: context.arguments(&property::uses(context)),
+        other_parameters: context.parameters(&property::uses_of_others(context)),
+        other_arguments: context.arguments(&property::uses_of_others(context)),
         masks: automaton.masked.iter().map(|port| names.ports[*port].clone()).collect(),
         remembers: property::remembers(automaton),
         anew: property::anew(context),

@@ -87,7 +87,8 @@ const METHODS: &[&str] = &[
     "step",
     "observe_anew",
     "properties",
-    "check_properties",
+    "check_others",
+    "put_out",
     "stay",
     "published",
     "limit",
@@ -109,6 +110,7 @@ const METHODS: &[&str] = &[
 ];
 const PARAMETERS: &[&str] = &["name"];
 const VARIABLES: &[&str] = &[
+    "at_rest",
     "best",
     "cells",
     "chosen",
@@ -128,7 +130,6 @@ const VARIABLES: &[&str] = &[
     "scan",
     "source",
     "start",
-    "stopped",
     "store_point",
     "store_real",
     "store_whole",

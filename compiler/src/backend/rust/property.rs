@@ -7,14 +7,25 @@ use crate::ir::{Automaton, Property, PropertyKind, Severity};
 
 /// What the method that looks at the properties needs beside the robot.
 pub fn uses(context: &Context) -> Uses {
+    let automaton = context.automaton();
+    let mut uses = uses_of(context, |_| true);
+    uses.start = automaton.can_stop();
+    uses
+}
+
+/// What the properties that do not stop the robot need.
+pub fn uses_of_others(context: &Context) -> Uses {
+    uses_of(context, |property| property.severity != Severity::Machine)
+}
+
+fn uses_of(context: &Context, is_meant: impl Fn(&Property) -> bool) -> Uses {
     let mut uses = Uses::default();
     let automaton = context.automaton();
-    for property in &automaton.properties {
+    for property in automaton.properties.iter().filter(|property| is_meant(property)) {
         property.exprs().into_iter().for_each(|expr| uses.expr(automaton, expr));
         uses.wiring |= matches!(property.kind, PropertyKind::Whenever { .. });
         uses.scan |= property.is_alarm();
     }
-    uses.start = automaton.can_stop();
     uses
 }
 
@@ -30,37 +41,49 @@ pub fn waits(automaton: &Automaton) -> bool {
 }
 
 /// Statements, one or more for each property.
-pub fn properties(context: &Context) -> Vec<String> {
+pub struct Checks {
+    /// Properties that stop the robot.
+    pub stops: Vec<String>,
+    /// Whether it continues.
+    pub continues: Option<String>,
+    pub others: Vec<String>,
+    /// Some of the others count for nothing while the robot is at rest.
+    pub has_pauses: bool,
+}
+
+pub fn checks(context: &Context) -> Checks {
     let automaton = context.automaton();
-    let mut texts = Vec::new();
-    if automaton.can_stop() {
-        texts.push("let stopped = self.stopped;".into());
-    }
+    let (mut stops, mut others) = (Vec::new(), Vec::new());
     let mut alarm = 0;
     for property in &automaton.properties {
         let title = comment(&format!("{}: {}", context.line(property.place), property.text));
         let holds = holds(context, property);
-        let reaction = match property.severity {
-            Severity::Line => format!("if !holds {{ return Err({}); }}", context.fault(property.site)),
-            Severity::Warning => format!("self.alarms[{alarm}].note(!holds, scan);"),
-            Severity::Machine => {
-                format!("if self.alarms[{alarm}].note(!holds, scan) {{ self.stopped = true; }}")
+        let text = |reaction: String| format!("{title}{holds}{reaction}");
+        match property.severity {
+            Severity::Line => {
+                others.push(text(format!("if !holds {{ return Err({}); }}", context.fault(property.site))))
             }
-        };
+            Severity::Warning => others.push(text(format!("self.alarms[{alarm}].note(!holds, scan);"))),
+            Severity::Machine => stops
+                .push(text(format!("if self.alarms[{alarm}].note(!holds, scan) {{ self.stopped = true; }}"))),
+        }
         alarm += usize::from(property.is_alarm());
-        texts.push(format!("{title}{holds}{reaction}"));
     }
-    if automaton.can_stop() {
-        let stops = automaton.alarms().enumerate().filter(|(_, p)| p.severity == Severity::Machine);
-        let closed = stops.map(|(number, _)| format!(" && !self.alarms[{number}].is_open()"));
-        let enabled = automaton.modes.iter().map(|modes| format!(" && {}", context.expr(&modes.may_go_on)));
-        texts.push(format!(
-            "{}if start && stopped{} {{ self.stopped = false; }}",
-            comment("It continues from the next scan."),
+    Checks { stops, continues: continues(context), others, has_pauses: automaton.has_pauses() }
+}
+
+fn continues(context: &Context) -> Option<String> {
+    let automaton = context.automaton();
+    let stops = automaton.alarms().enumerate().filter(|(_, p)| p.severity == Severity::Machine);
+    let closed = stops.map(|(number, _)| format!(" && !self.alarms[{number}].is_open()"));
+    let enabled = automaton.modes.iter().map(|modes| format!(" && {}", context.expr(&modes.may_go_on)));
+    automaton.can_stop().then(|| {
+        format!(
+            "{}if start && at_rest{} {{ self.stopped = false; }}",
+            comment("It continues: it makes its next step in the next scan."),
             closed.chain(enabled).collect::<String>()
-        ));
-    }
-    texts
+        )
+    })
 }
 
 /// Statements that end with the variable `holds`.
@@ -71,7 +94,7 @@ fn holds(context: &Context, property: &Property) -> String {
         PropertyKind::Always(condition) => format!("let holds = {};", context.expr(condition)),
         PropertyKind::Keep { condition, values, same, held } => {
             let (held, condition) = (field(*held), context.expr(condition));
-            let kept = if can_stop { format!("!stopped && ({condition})") } else { condition };
+            let kept = if can_stop { format!("!at_rest && ({condition})") } else { condition };
             let stores: String = values
                 .iter()
                 .map(|kept| format!("{} = {};", field(kept.before), context.expr(&kept.value)))
@@ -85,8 +108,8 @@ fn holds(context: &Context, property: &Property) -> String {
             let waited = field(*waited);
             let (trigger, goal) = (context.expr(trigger), context.expr(goal));
             let goal = match (can_stop, &context.automaton().modes) {
-                (_, Some(_)) => format!("stopped || self.is_single() || ({goal})"),
-                (true, None) => format!("stopped || ({goal})"),
+                (_, Some(_)) => format!("at_rest || self.is_single() || ({goal})"),
+                (true, None) => format!("at_rest || ({goal})"),
                 (false, None) => goal,
             };
             let anew = anew.as_ref().map(|kept| {

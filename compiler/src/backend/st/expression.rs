@@ -6,6 +6,7 @@ use super::declaration::Basic;
 use super::property::own_stop;
 use super::role::Members;
 use super::walk;
+use super::watchdog;
 use crate::ir::{
     Domain, Expr, ExprKind, InterfaceId, Operator, Place, RoleId, Scalar, StateId, Value, VariableId,
 };
@@ -78,7 +79,7 @@ impl Lowering<'_> {
             ExprKind::Failed if self.phase == Phase::Guard => name("failed"),
             ExprKind::Done => self.answered("="),
             ExprKind::Failed => self.failed(),
-            ExprKind::Permit => name("run_permit"),
+            ExprKind::Permit => name(watchdog::PANEL_PERMIT),
             ExprKind::Stopped => own_stop(),
             ExprKind::InState(states) => {
                 let is =

@@ -10,6 +10,7 @@ use super::code::Ex;
 use super::context::Shared;
 use super::declaration::{Basic, Variable, constants};
 use super::image::Image;
+use super::modes;
 use super::names::RobotNames;
 use super::restart;
 use super::role::Members;
@@ -201,6 +202,13 @@ fn system(shared: Shared) -> Vec<Variable> {
             variable("alarm_robot", Ex::Int(-1), "line output: number of its robot; -1: none"),
             variable("scan_no", Ex::Int(0), "scans since power-up"),
         ]);
+    }
+    if modes::any(shared) {
+        variables.push(variable(
+            watchdog::PANEL_PERMIT,
+            Ex::Bool(false),
+            "run_permit, in a scan that is not late: without it no robot is moved by hand",
+        ));
     }
     if alarm::can_stop(shared) {
         variables.push(variable("start_edge", Ex::Bool(false), "start has risen in this scan"));

@@ -123,6 +123,11 @@ impl Lowering<'_> {
     }
 }
 
+/// Whether any robot has a panel.
+pub fn any(shared: Shared) -> bool {
+    shared.system.model.automata.iter().any(|automaton| automaton.modes.is_some())
+}
+
 /// A value that the block of a robot keeps for its modes.
 pub fn field(shared: Shared, robot: usize, local: usize) -> Ex {
     let own = &shared.names.automata[shared.system.instances[robot].automaton.0];

@@ -5,6 +5,7 @@ use super::declaration::suffixes;
 use super::restart::KEPT;
 use super::role::{self, Members};
 use super::walk;
+use super::watchdog::PANEL_PERMIT;
 use crate::device::Port;
 use crate::ir::{
     Automaton, AutomatonId, Domain, Enum, Expr, ExprKind, Extent, Instance, Interface, RoleId, Scalar,
@@ -69,6 +70,7 @@ const TAKEN: &[&str] = &[
     "robot_stopped",
     "scan_no",
     "start_edge",
+    PANEL_PERMIT,
     "init_done",
     "dt_ms",
     "clock_ms",

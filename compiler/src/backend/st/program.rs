@@ -57,7 +57,7 @@ pub fn statements<'a>(shared: Shared<'a>, blocks: &Arc<Vec<Option<Blocks<'a>>>>,
         "A screen may write these two in the middle of a scan: they are read once.".into(),
     ));
     first.extend([assign("start_now", name("start")), assign("reset_now", name("reset"))]);
-    first.extend(watchdog::call());
+    first.extend(watchdog::call(shared));
     first.extend(status(shared));
     first.push(Stmt::Comment("Steps, in layout order.".into()));
     let mut body = Body::from(first);

@@ -18,12 +18,12 @@ use crate::ir::{AutomatonId, Expr, KeptBy, Property, PropertyKind, Scalar, Sever
 const VIOLATED: &str = "property_violated";
 /// Whether the condition of a `keep` holds.
 const HOLDS: &str = "condition_holds";
-/// The robot was stopped when the block was called.
-const WAS_STOPPED: &str = "was_stopped";
+/// The robot is stopped, or was when the block was called.
+const AT_REST: &str = "at_rest";
 /// The number of the robot's first entry in the table of alarms.
 pub const ENTRY: &str = "alarm_entry";
 pub const STOPPED: &str = "robot_stopped";
-pub const LOCAL: [&str; 4] = [VIOLATED, HOLDS, WAS_STOPPED, ENTRY];
+pub const LOCAL: [&str; 4] = [VIOLATED, HOLDS, AT_REST, ENTRY];
 
 pub fn block<'a>(shared: Shared, id: AutomatonId, globals: &Index) -> Option<Block<'a>> {
     let mut lowering = Lowering::new(shared, id);
@@ -32,14 +32,10 @@ pub fn block<'a>(shared: Shared, id: AutomatonId, globals: &Index) -> Option<Blo
         return None;
     }
     let masks = Masks::new(&mut lowering);
-    let tests = body(&mut lowering);
+    let tests = tests(&mut lowering, &masks.statements);
     let mut body = anew(&lowering);
     let begins = modes::tells_anew(automaton);
     body.push(when(stopped(), vec![Stmt::Return]));
-    if automaton.can_stop() {
-        body.push(assign(WAS_STOPPED, own_stop()));
-    }
-    body.extend(masks.statements);
     body.extend(dead::without_unread(tests, &made(&lowering)));
     let mut all = candidates(shared, id);
     let put_out = masks::put_out(&mut all, &masks.set);
@@ -55,7 +51,7 @@ pub fn block<'a>(shared: Shared, id: AutomatonId, globals: &Index) -> Option<Blo
     let own = [
         (VIOLATED, "the property does not hold"),
         (HOLDS, "its condition holds"),
-        (WAS_STOPPED, "the robot was stopped before this scan"),
+        (AT_REST, "the robot is stopped, or was before the properties were checked"),
     ];
     let own = own.map(|(name, about)| Variable::new(name, Basic::Bool).with_comment(about));
     variables.extend(own.into_iter().filter(|variable| used.contains(&variable.name)));
@@ -87,40 +83,36 @@ pub fn block<'a>(shared: Shared, id: AutomatonId, globals: &Index) -> Option<Blo
     })
 }
 
-/// The tests, in the order of the text.
+/// All tests, for what they read.
 pub fn body(lowering: &mut Lowering) -> Vec<Stmt> {
+    tests(lowering, &[])
+}
+
+/// First the properties that stop the robot, then whether it continues, then the others. `put_out` comes before those that
+/// it is for.
+fn tests(lowering: &mut Lowering, put_out: &[Stmt]) -> Vec<Stmt> {
     let automaton = lowering.automaton();
+    let stops = lowering.checks(|severity| severity == Severity::Machine);
     let mut out = Vec::new();
-    let mut alarm = 0;
-    for property in &automaton.properties {
-        lowering.phase = Phase::Update;
-        lowering.release();
-        out.push(Stmt::Comment(format!("{}   {}", property.text, lowering.line(property.place))));
-        let violated = lowering.violated(property, &mut out);
-        if !property.is_alarm() {
-            out.extend(guarded(violated, lowering.raise(property.site)));
-            continue;
-        }
-        // A `keep` has put it there.
-        if !matches!(&violated, Ex::Name(name) if name == VIOLATED) {
-            out.push(assign(VIOLATED, violated));
-        }
-        out.extend(note(entry(alarm), property.severity));
-        alarm += 1;
-    }
-    let stops = automaton.alarms().enumerate().filter(|(_, p)| p.severity == Severity::Machine);
-    let closed = stops.flat_map(|(number, _)| {
-        let of = |array: &str| Ex::Element(array.into(), Box::new(entry(number)));
-        [not(of("alarms_active")), of("alarms_acknowledged")]
-    });
     if automaton.can_stop() {
-        out.push(Stmt::Comment("It continues from the next scan.".into()));
-        let mut enabled = Vec::new();
-        if let Some(modes) = &automaton.modes {
-            enabled.push(lowering.condition(&modes.may_go_on, &mut out));
-        }
-        let conditions = [name("start_edge"), name(WAS_STOPPED)].into_iter().chain(closed).chain(enabled);
-        out.push(when(and(conditions.collect()), vec![Stmt::Assign(own_stop(), Ex::Bool(false))]));
+        out.push(assign(AT_REST, own_stop()));
+    }
+    if !stops.is_empty() {
+        out.extend(put_out.iter().cloned());
+        out.extend(stops);
+    }
+    if automaton.can_stop() {
+        lowering.continues(&mut out);
+    }
+    if automaton.has_pauses() {
+        out.push(assign(AT_REST, or(vec![name(AT_REST), own_stop()])));
+    }
+    // The outputs may be others.
+    lowering.known.clear();
+    let others = lowering.checks(|severity| severity != Severity::Machine);
+    if !others.is_empty() {
+        out.extend(put_out.iter().cloned());
+        out.extend(others);
     }
     out
 }
@@ -177,6 +169,47 @@ impl Lowering<'_> {
         value
     }
 
+    /// The tests of the properties of these severities, in the order of the text.
+    fn checks(&mut self, is_meant: impl Fn(Severity) -> bool) -> Vec<Stmt> {
+        let mut out = Vec::new();
+        let mut alarm = 0;
+        for property in &self.automaton().properties {
+            let number = alarm;
+            alarm += usize::from(property.is_alarm());
+            if !is_meant(property.severity) {
+                continue;
+            }
+            self.phase = Phase::Update;
+            self.release();
+            out.push(Stmt::Comment(format!("{}   {}", property.text, self.line(property.place))));
+            let violated = self.violated(property, &mut out);
+            if !property.is_alarm() {
+                out.extend(guarded(violated, self.raise(property.site)));
+                continue;
+            }
+            // A `keep` has put it there.
+            if !matches!(&violated, Ex::Name(name) if name == VIOLATED) {
+                out.push(assign(VIOLATED, violated));
+            }
+            out.extend(note(entry(number), property.severity));
+        }
+        out
+    }
+
+    fn continues(&mut self, out: &mut Vec<Stmt>) {
+        let automaton = self.automaton();
+        let stops = automaton.alarms().enumerate().filter(|(_, p)| p.severity == Severity::Machine);
+        let closed = stops.flat_map(|(number, _)| {
+            let of = |array: &str| Ex::Element(array.into(), Box::new(entry(number)));
+            [not(of("alarms_active")), of("alarms_acknowledged")]
+        });
+        out.push(Stmt::Comment("It continues: it makes its next step in the next scan.".into()));
+        let enabled: Vec<Ex> =
+            automaton.modes.iter().map(|modes| self.condition(&modes.may_go_on, out)).collect();
+        let conditions = [name("start_edge"), name(AT_REST)].into_iter().chain(closed).chain(enabled);
+        out.push(when(and(conditions.collect()), vec![Stmt::Assign(own_stop(), Ex::Bool(false))]));
+    }
+
     fn violated(&mut self, property: &Property, out: &mut Vec<Stmt>) -> Ex {
         let locals = &self.own().locals;
         let can_stop = self.automaton().can_stop();
@@ -192,7 +225,7 @@ impl Lowering<'_> {
                 let held = &locals[*held][0];
                 let condition = self.condition(condition, out);
                 let holds = match can_stop {
-                    true => and(vec![not(name(WAS_STOPPED)), condition]),
+                    true => and(vec![not(name(AT_REST)), condition]),
                     false => condition,
                 };
                 out.push(assign(HOLDS, holds));
@@ -220,7 +253,7 @@ impl Lowering<'_> {
                 let goal = self.condition(goal, out);
                 let within = self.condition(within, out);
                 let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
-                let goal = if can_stop { or(vec![name(WAS_STOPPED), goal]) } else { goal };
+                let goal = if can_stop { or(vec![name(AT_REST), goal]) } else { goal };
                 let goal = match &self.automaton().modes {
                     Some(modes) => or(vec![self.condition(&modes.is_single, out), goal]),
                     None => goal,

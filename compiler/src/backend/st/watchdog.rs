@@ -6,9 +6,12 @@
 use super::code::{Arm, Ex, Stmt, advance, and, assign, binary, name, not, or, when};
 use super::context::Shared;
 use super::declaration::{Basic, Instance, Unit, Variable};
+use super::modes;
 use super::value::{LATE_SCAN, WRONG_INTERVAL};
 
 pub const WATCHDOG: &str = "FB_Watchdog";
+/// The permit of the panels: a late scan is for them as one without `run_permit`.
+pub const PANEL_PERMIT: &str = "panel_permit";
 /// Its instance in MAIN.
 const INSTANCE: &str = "watchdog";
 /// The first statement of MAIN in CODESYS and TwinCAT, whose clock is a function.
@@ -25,6 +28,7 @@ const HUNDRED: &str = "hundred_scans_ms";
 const MEASURED: &str = "measured_ms";
 const SCANS: &str = "measured_scans";
 const CODE: &str = "code";
+const IS_LATE: &str = "is_late";
 
 /// Scans of which the mean is taken.
 const WINDOW: i32 = 100;
@@ -58,7 +62,7 @@ pub fn instance() -> Instance {
 }
 
 /// In MAIN, before anything is decided in the scan.
-pub fn call() -> Vec<Stmt> {
+pub fn call(shared: Shared) -> Vec<Stmt> {
     let interval = vec![("low", Ex::Int(1)), ("value", name("dt_ms")), ("high", Ex::Int(LONGEST))];
     let given = [
         ("cold_start", not(name("init_done"))),
@@ -68,17 +72,22 @@ pub fn call() -> Vec<Stmt> {
         ("runs", name("running")),
         ("starts", name("start_now")),
     ];
-    let code = || Ex::Field(INSTANCE.into(), CODE.into());
+    let output = |name: &str| Ex::Field(INSTANCE.into(), name.into());
+    let code = || output(CODE);
     let raise = vec![assign("fault_code", code()), assign("fault_robot", Ex::Int(-1))];
     let stop =
         vec![assign("running", Ex::Bool(false)), when(binary("=", name("fault_code"), Ex::Int(0)), raise)];
-    vec![
+    let mut statements = vec![
         Stmt::Call {
             instance: INSTANCE.into(),
             arguments: given.into_iter().map(|(name, value)| (name.to_string(), value)).collect(),
         },
         when(binary("<>", code(), Ex::Int(0)), stop),
-    ]
+    ];
+    if modes::any(shared) {
+        statements.push(assign(PANEL_PERMIT, and(vec![name("run_permit"), not(output(IS_LATE))])));
+    }
+    statements
 }
 
 /// The block.
@@ -104,7 +113,9 @@ pub fn block<'a>() -> Unit<'a> {
             (HUNDRED, "ms that the last 100 scans took; -1: not measured"),
         ]
         .map(variable)
-        .into(),
+        .into_iter()
+        .chain([truth(IS_LATE, "this scan came late")])
+        .collect(),
         variables: [
             (BEFORE, "clock_ms in the scan before"),
             (MEASURED, "ms of the scans counted so far"),
@@ -156,13 +167,8 @@ fn body() -> Vec<Stmt> {
         assign(PASSED, Ex::Int(-1)),
         when(and(vec![is_known(NOW), is_known(BEFORE)]), vec![passed]),
         assign(BEFORE, name(NOW)),
-        Stmt::If(
-            vec![
-                arm(and(vec![is_known(PASSED), binary(">", name(PASSED), name(LIMIT))]), late),
-                arm(is_short, counted),
-            ],
-            Vec::new(),
-        ),
+        assign(IS_LATE, and(vec![is_known(PASSED), binary(">", name(PASSED), name(LIMIT))])),
+        Stmt::If(vec![arm(name(IS_LATE), late), arm(is_short, counted)], Vec::new()),
         Stmt::Comment("The mean of a hundred scans, within 10 %.".into()),
         when(is_other, vec![assign(CODE, Ex::Int(WRONG_INTERVAL))]),
     ]
