@@ -15,6 +15,7 @@ use runtime_sim::part::lane::CentreLine;
 use runtime_sim::part::{Part, Primitive, Settings};
 use runtime_sim::point::Point;
 use runtime_sim::value::Value;
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// A device with what the layout gives one machine.
@@ -64,6 +65,7 @@ impl Placed {
             heights: Some(heights),
             index,
             values: Values::OfMachine,
+            left: Cell::default(),
         }
     }
 
