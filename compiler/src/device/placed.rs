@@ -208,6 +208,14 @@ impl Placed {
         parts.into_iter().filter_map(lane).collect()
     }
 
+    /// What is wrong with its lanes; `place` is where the layout describes the machine.
+    pub fn wrong_lanes(&self, place: Span) -> Vec<Diagnostic> {
+        let lanes: Vec<usize> = self.device.parts_called("lane").map(|(number, _)| number).collect();
+        let mut found = Vec::new();
+        self.some(&lanes, &[], place, &mut found);
+        found
+    }
+
     /// None for a machine without a chain.
     pub fn arm(&self) -> Option<Arm> {
         let parts = self.parts_of(&["axis", "chain"]);
