@@ -26,10 +26,12 @@ pub struct DrivenThrough {
 
 /// Height of the plate under a surface that vehicles must not enter, m.
 const PLATE: f64 = 0.005;
-/// A conveyor that rises or turns is taken for straight plates of this length, m.
+/// A conveyor that rises or turns is taken for straight plates of this length, m; longer ones if there were too many.
 const STRETCH: f64 = 0.2;
-/// From one look at a vehicle to the next one on its way, m.
+const MOST_PLATES: f64 = 200.0;
+/// From one look at a vehicle to the next one on its way, m; more if there were too many.
 const STEP: f64 = 0.05;
+const MOST_STEPS: f64 = 2000.0;
 
 /// One for each surface, in the order of the machines; none of what a cylinder or a positioner moves, of pairs that may
 /// touch, and of machines with a body in the way, because a run finds that contact.
@@ -42,18 +44,18 @@ pub fn driven_through(line: &Line) -> Vec<DrivenThrough> {
         let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::World);
         let pieces = solids.map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
         let bodies = Thing::new(pieces.map(|piece| piece.within(&Pose::IDENTITY)).collect());
-        let others = vehicles.iter().filter(|vehicle| {
+        let is_free = |vehicle: &Vehicle| {
             let names = [machine, &line.machines[vehicle.machine]].map(|machine| machine.name.as_str());
-            vehicle.machine != number && !line.allows(names)
-        });
-        let others: Vec<&Vehicle> = others.collect();
+            !line.allows(names) && vehicle.meets(&bodies).is_none()
+        };
         for (part, of) in machine.parts.iter().enumerate() {
             let Some(surface) = surface(&of.primitive) else { continue };
-            let through = others.iter().find_map(|vehicle| {
+            let mut others = vehicles.iter().filter(|vehicle| vehicle.machine != number);
+            let through = others.find_map(|vehicle| {
                 let (at, body) = vehicle.meets(&surface)?;
                 let found =
                     DrivenThrough { vehicle: vehicle.machine, body: body.into(), machine: number, part, at };
-                vehicle.meets(&bodies).is_none().then_some(found)
+                is_free(vehicle).then_some(found)
             });
             found.extend(through);
         }
@@ -135,9 +137,11 @@ impl Way {
         let middle = (ball.middle - self.from.position).dot(self.ahead);
         let reach = ball.radius + reach;
         let (begin, end) = ((middle - reach).max(0.0), (middle + reach).min(self.length));
-        let count = ((end - begin) / STEP).ceil().max(0.0) as usize;
-        (0..=count).map(move |number| {
-            let place = (begin + STEP * number as f64).min(end);
+        let steps = ((end - begin) / STEP).ceil().clamp(1.0, MOST_STEPS);
+        let step = (end - begin) / steps;
+        let count = if end < begin { 0 } else { steps as usize + 1 };
+        (0..count).map(move |number| {
+            let place = begin + step * number as f64;
             Frame { position: self.from.position + self.ahead.scaled(place), ..self.from }
         })
     }
@@ -177,7 +181,11 @@ fn surface(primitive: &Primitive) -> Option<Thing> {
                 CentreLine::Line { rise, .. } => *rise == 0.0,
                 CentreLine::Arc { .. } => false,
             };
-            let count = if is_straight { 1 } else { (line.length() / STRETCH).ceil() as usize };
+            let count = if is_straight {
+                1
+            } else {
+                (line.length() / STRETCH).ceil().clamp(1.0, MOST_PLATES) as usize
+            };
             let length = line.length() / count as f64;
             let middle = |number: usize| line.frame(line.end() + length * (number as f64 + 0.5));
             Some(Thing::new((0..count).map(|number| plate(middle(number), length, lane.width)).collect()))
