@@ -161,6 +161,42 @@ fn an_automaton_that_no_type_names_is_to_be_renamed() {
     }
 }
 
+/// A lane with a wrong setting is the cause, and not that there is no lane.
+#[test]
+fn a_wrong_lane_at_which_others_begin_is_told() {
+    let device = "device module {
+        parameter speed: real;
+        part belt = lane { from: origin; length: 1.0; width: 0.4; speed: speed; };
+        out run: bool = belt.run stop false;
+    }
+    automaton Module on module { initial -> Running { run := true; } state Running { when false -> Running {} } }";
+    let told = |speeds: [&str; 3]| -> Vec<String> {
+        let [a, b, c] = speeds;
+        let layout = format!(
+            r#"{{"robots": [
+                {{"name": "c1", "type": "module", "pose": [0, 0, 0], "speed": {a}}},
+                {{"name": "c2", "type": "module", "at": "c1.belt", "speed": {b}}},
+                {{"name": "c3", "type": "module", "at": "c2.belt", "speed": {c}}}
+            ]}}"#
+        );
+        let texts = Texts { specs: vec![device.into()], ..Texts::of_layout(layout) };
+        let outcome = texts.compile();
+        let machine =
+            |place: autogen::source::Span| outcome.sources.text(place).chars().skip(10).take(2).collect();
+        let all = outcome.diagnostics.iter();
+        all.map(|found| {
+            let of: Vec<String> = found.others.iter().map(|(place, _)| machine(*place)).collect();
+            format!("{} {} {}", found.code, of.join(" "), found.message)
+        })
+        .collect()
+    };
+    let wrong = |machine: &str| format!("E0704 {machine} `speed` has to be a number over 0");
+    assert_eq!(told(["0.3", "0.3", "0.3"]), [""; 0]);
+    assert_eq!(told(["0", "0.3", "0.3"]), [wrong("c1")]);
+    assert_eq!(told(["0.3", "0", "0.3"]), [wrong("c2")]);
+    assert_eq!(told(["0.3", "0.3", "0"]), [wrong("c3")]);
+}
+
 /// Two nodes and what a vehicle on them is told.
 #[test]
 fn routes_that_are_wrong_are_told() {

@@ -9,6 +9,7 @@ mod crossing;
 mod devices;
 mod distances;
 mod disturbed;
+mod driven_through;
 mod drives;
 mod errors;
 mod examples;

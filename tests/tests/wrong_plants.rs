@@ -53,6 +53,42 @@ fn a_lane_shorter_than_a_part() {
     );
 }
 
+/// The scenario brings one box. `box` of a `blank` can be as many as there are blanks.
+#[test]
+fn a_goal_above_the_supply() {
+    let scenario = |items: &str, goal: &str| {
+        let kinds = r#"{"name": "box", "height": 0.1}, {"name": "blank", "height": 0.1}"#;
+        Some(format!(
+            r#"{{"kinds": [{kinds}], "supply": {{"items": [{items}]}}, "goal": {{"thing.store": {{{goal}}}}}}}"#
+        ))
+    };
+    let store = "part store = sink { of: belt; inset: 0; };";
+    let maker = "part seat = place {
+            at: pose; slots: [point(0, 0, 0)]; by_kind: false; floor: pose; floor_x: [-0.1, 0.1]; floor_y: [-0.1, 0.1];
+        };
+        part press = process { on: seat; time: 1 s; makes: [blank, box]; };
+        out press_it: bool = press.start;";
+    let told = |more: &str, items: &str, goal: &str| -> Vec<String> {
+        let device = format!("device thing {{ {} }}", with_belt(1.0, &format!("{store} {more}")));
+        let automaton = "automaton Thing on thing { initial state S { when false -> S {} } }";
+        let texts = Texts {
+            specs: vec![format!("{device} {automaton}")],
+            scenario: scenario(items, goal),
+            ..Texts::of_layout(r#"{"robots": [{"name": "thing", "type": "thing", "pose": [0, 0, 0]}]}"#)
+        };
+        let found = texts.compile().diagnostics.into_iter();
+        found.map(|found| format!("{} {} => {}", found.code, found.message, found.help)).collect()
+    };
+    assert_eq!(told("", r#""box", "box""#, r#""box": 2"#), [""; 0]);
+    assert_eq!(
+        told("", r#""box", "box""#, r#""box": 3"#),
+        [r#"E0138 the belts bring too few parts "box": 2 of 3 => add 1 parts "box" to "items""#]
+    );
+    assert_eq!(told(maker, r#""box", "blank""#, r#""box": 2"#), [""; 0]);
+    let none = told("", r#""box""#, r#""blank": 1"#);
+    assert!(matches!(&none[..], [one] if one.starts_with("E0410")), "{none:?}");
+}
+
 #[test]
 fn two_ends_30_mm_apart() {
     let next = |at: f64| {

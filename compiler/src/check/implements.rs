@@ -42,7 +42,7 @@ impl Context<'_, '_> {
                     self.report(Diagnostic::new("E0323", clause.span, message).help(format!(
                         "declare `parameter {}: {};`",
                         parameter.name,
-                        self.checker.type_name(parameter.ty.scalar)
+                        self.checker.type_with_size(parameter.ty)
                     )));
                     continue;
                 }
@@ -54,8 +54,7 @@ impl Context<'_, '_> {
                     (a, b) => a == b,
                 };
             if !fits {
-                let (have, want) =
-                    (self.checker.type_name(found.scalar), self.checker.type_name(parameter.ty.scalar));
+                let [have, want] = [found, parameter.ty].map(|ty| self.checker.type_with_size(ty));
                 let place = self.automaton.parameters[index].place;
                 self.report(
                     Diagnostic::new(

@@ -256,6 +256,15 @@ impl Checker<'_> {
         }
     }
 
+    pub(super) fn type_with_size(&self, ty: ir::Type) -> String {
+        let scalar = self.type_name(ty.scalar);
+        match ty.extent {
+            Extent::One => scalar,
+            Extent::Count(size) => format!("{scalar}[{size}]"),
+            Extent::By(id) => format!("{scalar}[{}]", self.model.enums[id.0].name),
+        }
+    }
+
     /// A type in the user's words.
     pub(super) fn type_name(&self, ty: Scalar) -> String {
         match ty {

@@ -8,6 +8,7 @@ use runtime_sim::frame::Frame;
 use runtime_sim::part::{Form, Setting, VERTICAL};
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::value::Value;
+use std::cell::Cell;
 
 /// What an expression may be.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +42,8 @@ pub struct Environment<'a> {
     /// Behind the name of a place: `index`.
     pub index: Option<usize>,
     pub values: Values,
+    /// Expressions that a value may still take.
+    pub left: Cell<u32>,
 }
 
 /// Whether limits of settings are checked.
@@ -60,11 +63,18 @@ pub type Wrong = Box<Diagnostic>;
 
 /// Expressions one in another: definitions may refer to one another.
 const DEEPEST: usize = 200;
+/// Expressions that one value takes, counted wherever they are used.
+const MOST_STEPS: u32 = 20_000;
+const TO_ITSELF: &str = "this definition refers to itself";
 
 impl Environment<'_> {
+    pub fn with_index(&self, index: Option<usize>) -> Self {
+        Self { index, left: Cell::default(), ..*self }
+    }
+
     /// A value in the scope of this number.
     pub fn value(&self, scope: usize, expr: &ast::Expr) -> Result<Value, Wrong> {
-        match self.at(scope, expr, 0)? {
+        match self.found(scope, expr)? {
             Found::Value(value) => Ok(value),
             Found::Duration(_) => Err(wrong(expr.span, "a time is not allowed here")),
             Found::Routes(_) => Err(wrong(expr.span, NO_VALUE)),
@@ -74,11 +84,34 @@ impl Environment<'_> {
 
     /// The same where a time may be too.
     pub fn found(&self, scope: usize, expr: &ast::Expr) -> Result<Found, Wrong> {
-        self.at(scope, expr, 0)
+        self.bounded(expr.span, || self.at(scope, expr, 0))
     }
 
     /// What a setting of a part is, in the form that the primitive wants.
     pub fn setting(&self, part: &Part, setting: &Setting, given: &Given) -> Result<Value, Wrong> {
+        self.bounded(given.value.span, || self.setting_at(part, setting, given, 0))
+    }
+
+    fn bounded<T>(&self, place: Span, evaluate: impl FnOnce() -> Result<T, Wrong>) -> Result<T, Wrong> {
+        self.left.set(MOST_STEPS);
+        let found = evaluate();
+        if found.is_err() && self.left.get() == 0 {
+            let message = "this takes too long: definitions are used too often in one another";
+            return Err(Diagnostic::new("E0710", place, message)
+                .note(format!("it takes more than {MOST_STEPS} steps"))
+                .help("use fewer definitions in it, or each of them once")
+                .into());
+        }
+        found
+    }
+
+    fn setting_at(
+        &self,
+        part: &Part,
+        setting: &Setting,
+        given: &Given,
+        depth: usize,
+    ) -> Result<Value, Wrong> {
         if let Some(known) = &given.known {
             return Ok(known.clone());
         }
@@ -90,11 +123,11 @@ impl Environment<'_> {
             let one = Setting { form: Form::Positive, ..*setting };
             let element = |element: &ast::Expr| {
                 let given = Given { name: given.name.clone(), value: element.clone(), known: None };
-                self.setting(part, &one, &given)
+                self.setting_at(part, &one, &given, depth)
             };
             return elements.iter().map(element).collect::<Result<_, _>>().map(Value::List);
         }
-        let found = match self.at(part.scope, expr, 0)? {
+        let found = match self.at(part.scope, expr, depth)? {
             Found::Duration(ms) if setting.unit == "ms" => Value::Number(ms as f64),
             Found::Duration(_) => {
                 let unit = if setting.unit.is_empty() { "no time" } else { setting.unit };
@@ -157,9 +190,11 @@ impl Environment<'_> {
     }
 
     fn at(&self, scope: usize, expr: &ast::Expr, depth: usize) -> Evaluated {
-        if depth > DEEPEST {
-            return Err(wrong(expr.span, "this definition refers to itself"));
+        let left = self.left.get();
+        if depth > 2 * DEEPEST || left == 0 {
+            return Err(wrong(expr.span, TO_ITSELF));
         }
+        self.left.set(left - 1);
         let at = |expr: &ast::Expr| self.at(scope, expr, depth + 1);
         let number = |expr: &ast::Expr| number(at(expr)?, expr.span);
         match &expr.kind {
@@ -230,6 +265,7 @@ impl Environment<'_> {
                     (_, argument) => Found::Value(argument),
                 })
             }
+            Some(Symbol::Define(expr)) if depth > DEEPEST => Err(wrong(expr.span, TO_ITSELF)),
             Some(Symbol::Define(expr)) => self.at(scope, expr, depth + 1),
             Some(Symbol::Argument(expr)) => self.at(here.parent.unwrap_or(0), expr, depth + 1),
             Some(Symbol::Part(part)) => value(Value::Part { part: *part, frame: 0 }),
@@ -276,8 +312,11 @@ impl Environment<'_> {
                 let known = found.schema.setting(&member.value);
                 let given = found.settings.iter().find(|given| given.name.value == member.value);
                 match (known, given) {
-                    (Some(setting), Some(given)) if depth <= DEEPEST => {
-                        Ok(Found::Value(self.setting(found, setting, given)?))
+                    (Some(_), Some(given)) if depth > DEEPEST => {
+                        Err(wrong(given.value.span, "this setting refers to itself"))
+                    }
+                    (Some(setting), Some(given)) => {
+                        Ok(Found::Value(self.setting_at(found, setting, given, depth + 1)?))
                     }
                     _ => {
                         let names = found.schema.frames.iter().copied();

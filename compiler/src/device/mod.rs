@@ -10,6 +10,7 @@ pub mod panel;
 mod placed;
 mod program;
 mod settle;
+mod stop;
 mod wires;
 
 pub use check::{Declared, check};

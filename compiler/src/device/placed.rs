@@ -15,6 +15,7 @@ use runtime_sim::part::lane::CentreLine;
 use runtime_sim::part::{Part, Primitive, Settings};
 use runtime_sim::point::Point;
 use runtime_sim::value::Value;
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// A device with what the layout gives one machine.
@@ -64,6 +65,7 @@ impl Placed {
             heights: Some(heights),
             index,
             values: Values::OfMachine,
+            left: Cell::default(),
         }
     }
 
@@ -204,6 +206,14 @@ impl Placed {
             _ => None,
         };
         parts.into_iter().filter_map(lane).collect()
+    }
+
+    /// What is wrong with its lanes; `place` is where the layout describes the machine.
+    pub fn wrong_lanes(&self, place: Span) -> Vec<Diagnostic> {
+        let lanes: Vec<usize> = self.device.parts_called("lane").map(|(number, _)| number).collect();
+        let mut found = Vec::new();
+        self.some(&lanes, &[], place, &mut found);
+        found
     }
 
     /// None for a machine without a chain.

@@ -2,7 +2,7 @@
 //! wrong for any.
 
 use super::evaluate::{Environment, Found, Heights, Values, Wrong};
-use super::program::{Program, Setting as Given};
+use super::program::{Program, Setting as Given, Symbol};
 use super::{Constant, Form, Parameter};
 use crate::diagnostic::Diagnostic;
 use crate::spec::ast;
@@ -10,6 +10,7 @@ use runtime_sim::frame::Frame;
 use runtime_sim::part::{Part, Settings};
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::value::Value;
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// Works out settings and parts that are the same for all machines.
@@ -46,7 +47,8 @@ pub fn known(program: &Program, expr: &ast::Expr) -> Result<Found, Wrong> {
 
 fn nothing(program: &Program) -> Environment<'_> {
     let values = Values::OfMachine;
-    Environment { program, pose: None, arguments: &[], heights: None, index: None, values }
+    let left = Cell::default();
+    Environment { program, pose: None, arguments: &[], heights: None, index: None, values, left }
 }
 
 /// Expressions that are wrong whatever the layout says.
@@ -63,8 +65,9 @@ pub fn wrong(
         heights: Some(&[Heights { top: 0.1, grasp: 0.1 }]),
         index: None,
         values: Values::Sample,
+        left: Cell::default(),
     };
-    let mut found = Vec::new();
+    let mut found = wrong_definitions(&environment.with_index(Some(0)));
     for part in &program.parts {
         for given in part.settings.iter().filter(|given| given.known.is_none()) {
             let Some(setting) = part.schema.setting(&given.name.value) else { continue };
@@ -105,7 +108,7 @@ pub fn wrong(
         }
     }
     for place in &program.places {
-        let environment = Environment { index: place.extent.as_ref().map(|_| 0), ..environment };
+        let environment = environment.with_index(place.extent.as_ref().map(|_| 0));
         if let Some(toward) = &place.toward {
             match environment.value(0, toward) {
                 Ok(Value::Point(_)) => {}
@@ -133,6 +136,18 @@ pub fn wrong(
         }
     }
     found
+}
+
+/// Definitions that are wrong, whether or not something uses them.
+fn wrong_definitions(environment: &Environment) -> Vec<Diagnostic> {
+    let scopes = environment.program.scopes.iter().enumerate();
+    let defined = scopes.flat_map(|(scope, of)| of.names.values().map(move |symbol| (scope, symbol)));
+    let defined = defined.filter_map(|(scope, symbol)| match symbol {
+        Symbol::Define(expr) => Some((scope, expr)),
+        _ => None,
+    });
+    let wrong = defined.filter_map(|(scope, expr)| environment.found(scope, expr).err());
+    wrong.map(|wrong| *wrong).collect()
 }
 
 fn sample(form: &Form) -> Value {

@@ -122,6 +122,7 @@ impl Checker<'_> {
     }
 
     fn input(&mut self, port: &ast::Port) -> Option<(Port, Source)> {
+        self.no_stop(port);
         let (ty, extent) = self.port_type(&port.ty)?;
         let Some(wire) = &port.wire else {
             let message = format!("the input `{}` has no source", port.name.value);
@@ -153,18 +154,7 @@ impl Checker<'_> {
 
     fn output(&mut self, port: &ast::Port, tree: &ast::Device) -> Option<(Port, Drives)> {
         let (ty, extent) = self.port_type(&port.ty)?;
-        let stop = match port.stop.as_ref().map(|stop| &stop.kind) {
-            None => Stop::Hold,
-            Some(ExprKind::Bool(value)) => Stop::Value(f64::from(u8::from(*value))),
-            Some(ExprKind::Int(value)) => Stop::Value(*value as f64),
-            Some(ExprKind::Real(value)) => Stop::Value(*value),
-            Some(_) => {
-                let span = port.stop.as_ref().map_or(port.name.span, |stop| stop.span);
-                let message = "the value after `stop` has to be a number or a boolean".to_string();
-                self.report("E0707", span, message, "write `stop false` or `stop 0`");
-                Stop::Hold
-            }
-        };
+        let stop = self.stop(port, ty);
         let mut arguments = tree.commands.iter().flat_map(|command| &command.arguments);
         let is_argument = arguments.any(|argument| argument.value == port.name.value);
         let Some(wire) = &port.wire else {

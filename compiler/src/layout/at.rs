@@ -158,12 +158,12 @@ impl Places<'_> {
         let other = self.placed(before, frame, device).map_err(|_| self.without_lane(before, at))?;
         let end = lane(&other, &at.lane).map_err(|lanes| {
             let message = format!("\"{}\" has no lane \"{}\"", at.machine, at.lane);
-            vec![wrong(at.span, message).help(which(&lanes))]
+            self.cause(before, &other, wrong(at.span, message).help(which(&lanes)))
         })?;
         let begin = own_lane(&own, at.own.as_ref()).map_err(|(message, lanes)| {
             let span = at.own.as_ref().map_or(at.span, |own| own.span);
             let message = format!("\"{}\" {message}", object.name.value);
-            vec![wrong(span, message).help(which(&lanes))]
+            self.cause(number, &own, wrong(span, message).help(which(&lanes)))
         })?;
         let meets = end.frame(end.end());
         let frame = meets.then(begin.frame(begin.begin()).inverse());
@@ -180,6 +180,12 @@ impl Places<'_> {
             .note("it is given in the world, or from `pose`, which does not turn")
             .help("give the lane `from: origin * ...` in its device, or write a pose");
         Err(vec![found])
+    }
+
+    /// What is wrong with the lanes of a machine, if that is why one was not found.
+    fn cause(&self, number: usize, placed: &Placed, not_found: Diagnostic) -> Vec<Diagnostic> {
+        let wrong = placed.wrong_lanes(self.objects[number].span);
+        if wrong.is_empty() { vec![not_found] } else { wrong }
     }
 
     /// What is wrong with the other machine is reported there, but not that an obstacle has no lane.

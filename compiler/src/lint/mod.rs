@@ -3,6 +3,7 @@
 mod answer;
 mod beams;
 mod contradiction;
+mod driven;
 mod failure;
 mod flow;
 mod implies;
@@ -43,6 +44,7 @@ pub fn warnings(checked: &Checked, files: &[(FileId, ast::File)], panel: Panel) 
 pub fn of_layout(layout: &Layout, system: &System, line: &Line) -> Vec<Diagnostic> {
     let mut found = lanes::check(layout, system, line);
     found.extend(beams::check(system, line));
+    found.extend(driven::check(layout, line));
     diagnostic::sort(&mut found);
     found
 }

@@ -90,14 +90,19 @@ impl Uses {
         variable: Variable,
         place: Option<Span>,
     ) -> Option<Diagnostic> {
-        let wrong = match (self.read.contains(&variable), self.written.contains(&variable)) {
+        let (wrong, help) = match (self.read.contains(&variable), self.written.contains(&variable)) {
             (true, true) => return None,
-            (true, false) => "keeps its first value: nothing else is written to it",
-            (false, true) => "is never read",
-            (false, false) => "is never used",
+            (true, false) => (
+                "keeps its first value: nothing else is written to it",
+                "write to it where it has to change; if it never has to, read its value instead, as it stands or by a `define`, and remove it",
+            ),
+            (false, true) => {
+                ("is never read", "read it where it matters, or remove it and what is written to it")
+            }
+            (false, false) => ("is never used", "use it, or remove it"),
         };
         let message = format!("the {what} `{name}` {wrong}");
-        Some(Diagnostic::new(code, place?, message).help("remove it, or use it"))
+        Some(Diagnostic::new(code, place?, message).help(help))
     }
 
     fn automaton(&mut self, model: &Model, automaton: &Automaton) {

@@ -43,12 +43,12 @@ fn give(object: &mut Object, setting: &Setting) {
 
 /// Whether an error is of an object with such keys, so that other values may not have it.
 pub fn depends_on_values(found: &Diagnostic, layout: &Layout, settings: &[Setting], model: &Model) -> bool {
-    let place = found.place;
+    let places = || found.others.iter().map(|(place, _)| *place).chain([found.place]);
     let is_of = |object: &Object| {
         let span = object.span;
-        place.file == span.file && span.start <= place.start && place.end <= span.end
+        places().any(|place| place.file == span.file && span.start <= place.start && place.end <= span.end)
     };
-    settings.iter().any(|setting| setting.span.file == place.file)
+    settings.iter().any(|setting| setting.span.file == found.place.file)
         || concerned(layout, settings, model).iter().any(|(object, _)| is_of(object))
 }
 

@@ -400,24 +400,47 @@ impl<'a> Resolver<'a> {
             );
             return;
         }
-        let kinds = self.scenario.kinds.iter().enumerate();
-        for (k, kind) in kinds.filter(|(_, kind)| !self.line.made.contains(&kind.name.value.as_str())) {
-            let needed: u64 = self.scenario.orders.list.iter().map(|o| u64::from(o.parts[k])).sum();
+        for (k, needed, place, asked) in self.asked() {
             let brought = supply.iter().flat_map(|(_, items)| items).filter(|i| **i == k).count() as u64;
             if brought < needed {
-                let name = &kind.name.value;
+                let name = &self.scenario.kinds[k].name.value;
+                let (what, could) = match asked {
+                    Asked::Orders => ("the orders", "the line could not make all orders"),
+                    // That nothing gets to a sink is told of the sink.
+                    Asked::Goal if brought == 0 => continue,
+                    Asked::Goal => {
+                        ("the goal", "the line could not reach its goal: no process makes this kind")
+                    }
+                };
+                let few = format!("the belts bring too few parts \"{name}\": {brought} of {needed}");
                 collect(
                     &mut self.diagnostics,
-                    Diagnostic::new(
-                        "E0138",
-                        self.scenario.supply.span,
-                        format!("the belts bring too few parts \"{name}\": {brought} of {needed}"),
-                    )
-                    .other(self.scenario.orders.span, "the orders")
-                    .note("the line could not make all orders")
-                    .help(format!("add {} parts \"{name}\" to \"items\"", needed - brought)),
+                    Diagnostic::new("E0138", self.scenario.supply.span, few)
+                        .other(place, what)
+                        .note(could)
+                        .help(format!("add {} parts \"{name}\" to \"items\"", needed - brought)),
                 );
             }
         }
     }
+
+    /// How many parts of each kind orders and goal ask for, and where; not of kinds that processes make.
+    fn asked(&self) -> Vec<(usize, u64, Span, Asked)> {
+        let Scenario { kinds, orders, goal, .. } = self.scenario;
+        let given = (0..kinds.len()).filter(|k| !self.line.made.contains(&kinds[*k].name.value.as_str()));
+        let of_kind = |k: usize| {
+            let ordered = orders.list.iter().map(|order| u64::from(order.parts[k])).sum();
+            let collected = goal.iter().map(|collected| u64::from(collected.items[k])).sum();
+            let sink = goal.iter().find(|collected| collected.items[k] > 0);
+            let by_goal = sink.map(|sink| (k, collected, sink.sink.span, Asked::Goal));
+            [Some((k, ordered, orders.span, Asked::Orders)), by_goal]
+        };
+        given.flat_map(of_kind).flatten().collect()
+    }
+}
+
+/// Who asks for parts.
+enum Asked {
+    Orders,
+    Goal,
 }

@@ -19,7 +19,7 @@ pub fn all(project: &Project, sources: &Sources) -> Vec<Files> {
     let drawing = Files::from([("plan.svg".into(), plan::svg(&project.plant, &project.edges))]);
     vec![
         drawing,
-        dot_files::files(&project.system, &project.edges),
+        dot_files::files(project),
         sdf_files::files(&project.name, &project.plant),
         rust::files(&project.system, sources),
         st::files(&project.system, sources),
@@ -29,11 +29,14 @@ pub fn all(project: &Project, sources: &Sources) -> Vec<Files> {
 
 /// Graphs, drawing, world and the simulator's data.
 pub fn cheap(project: &Project) {
-    for (name, text) in dot_files::files(&project.system, &project.edges) {
+    for (name, text) in dot_files::files(project) {
         let graph = dot::read(&text).unwrap_or_else(|e| panic!("{name}: {e}\n{text}"));
         if name == "connectivity.dot" {
             assert_eq!(graph.nodes, project.system.instances.len(), "{name}\n{text}");
-            assert_eq!(graph.edges, project.edges.len(), "{name}\n{text}");
+            let conveyed: HashSet<[usize; 2]> =
+                project.transfers.iter().map(|transfer| [transfer.from.0, transfer.to.0]).collect();
+            let between = conveyed.iter().filter(|[from, to]| from != to);
+            assert_eq!(graph.edges, project.edges.len() + between.count(), "{name}\n{text}");
         }
     }
     drawing::svg(&plan::svg(&project.plant, &project.edges));

@@ -11,6 +11,7 @@ pub mod distance;
 pub(crate) mod body;
 mod bounds;
 mod check;
+mod driven;
 mod free;
 mod group;
 mod movement;
@@ -29,6 +30,7 @@ pub(crate) mod reach {
 
 pub use bounds::BoundingBox;
 pub use check::{CollisionCheck, Contact};
+pub use driven::{DrivenThrough, driven_through};
 pub use paths::{Moving, Path};
 pub use standing::{Overlap, overlaps};
 pub use sweep::Sweep;

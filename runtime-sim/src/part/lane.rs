@@ -19,7 +19,7 @@ pub const SCHEMA: Schema = Schema {
     can_jam: true,
     ..Schema::new(
         "lane",
-        "A conveyor. It runs while its level `run` is on, or after its command `run` until `rest`; with neither it always runs, like a chute. With `from` and `length` it has any direction, straight or as an arc; with `along`, `range` and `surface` it lies along an axis of the world, from the upper to the lower end of its range.",
+        "A conveyor. It runs while its level `run` is on, or after its command `run` until `rest`; with neither it always runs, like a chute. With `from` and `length` it has any direction, straight or as an arc; with `along`, `range` and `surface` it lies along an axis of the world, from the upper to the lower end of its range. It has no solid of its own: give the machine bodies, such as guards and a frame, so that contact with it is found.",
         &[
             Setting::new("on", Form::Part(&["cylinder", "positioner"]), "", "what carries it; `from` is then its frame at the inner end, or at 0").optional(),
             Setting::new("from", Form::Frame, "m", "its beginning, on its surface; x is its direction").optional(),

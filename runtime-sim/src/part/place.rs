@@ -11,7 +11,7 @@ use crate::point::Point;
 
 pub const SCHEMA: Schema = Schema::new(
     "place",
-    "A floor with slots. Items that fall on it stay on it.",
+    "A floor with slots. Items that fall on it stay on it. It has no solid of its own: give the machine a body, such as the table under it, so that contact with it is found.",
     &[
         Setting::new("on", Form::Part(&["route", "track", "cylinder", "positioner"]), "", "what carries it; without it, it is at rest").optional(),
         Setting::new(

@@ -219,6 +219,18 @@ impl Parser {
         }
     }
 
+    fn no_second_size(&mut self) -> Option<()> {
+        if !self.at_sign("[") {
+            return Some(());
+        }
+        self.error(
+            "E0205",
+            "there are no arrays of arrays: `;` or a value is expected after the size".into(),
+            "write one array with all elements, `bool[6]` for 3 rows of 2, and compute its index, `k[2 * row + column]`",
+        );
+        None
+    }
+
     pub(super) fn parse_type(&mut self) -> Option<ast::Type> {
         let span = self.span();
         let name = self.expect_name("the type")?;
@@ -246,6 +258,7 @@ impl Parser {
         let extent = if self.maybe_sign("[") {
             let extent = self.parse_expr();
             self.expect_sign("]", "after the size of the array")?;
+            self.no_second_size()?;
             Some(extent)
         } else {
             None

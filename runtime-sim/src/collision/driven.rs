@@ -1,0 +1,205 @@
+//! Conveyors and places through which vehicles drive: these have no solids, so no contact is found there.
+
+use super::body::{Ball, Piece, Placed};
+use super::bounds::BoundingBox;
+use crate::frame::Frame;
+use crate::kinematics::facing::Facing;
+use crate::kinematics::pose::Pose;
+use crate::line::Line;
+use crate::machine::Machine;
+use crate::part::Primitive;
+use crate::part::lane::CentreLine;
+use crate::point::Point;
+use crate::solid::{Link, Shape};
+
+/// A conveyor or a place, and the first vehicle that drives through it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrivenThrough {
+    pub vehicle: usize,
+    /// Which of its bodies.
+    pub body: String,
+    pub machine: usize,
+    pub part: usize,
+    /// The position of the vehicle.
+    pub at: Point,
+}
+
+/// Height of the plate under a surface that vehicles must not enter, m.
+const PLATE: f64 = 0.005;
+/// A conveyor that rises or turns is taken for straight plates of this length, m; longer ones if there were too many.
+const STRETCH: f64 = 0.2;
+const MOST_PLATES: f64 = 200.0;
+/// From one look at a vehicle to the next one on its way, m; more if there were too many.
+const STEP: f64 = 0.05;
+const MOST_STEPS: f64 = 2000.0;
+
+/// One for each surface, in the order of the machines; none of what a cylinder or a positioner moves, of pairs that may
+/// touch, and of machines with a body in the way, because a run finds that contact.
+pub fn driven_through(line: &Line) -> Vec<DrivenThrough> {
+    let machines = || line.machines.iter().enumerate();
+    let vehicles: Vec<Vehicle> =
+        machines().filter_map(|(number, machine)| Vehicle::new(number, machine)).collect();
+    let mut found = Vec::new();
+    for (number, machine) in machines().filter(|_| !vehicles.is_empty()) {
+        let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::World);
+        let pieces = solids.map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
+        let bodies = Thing::new(pieces.map(|piece| piece.within(&Pose::IDENTITY)).collect());
+        let is_free = |vehicle: &Vehicle| {
+            let names = [machine, &line.machines[vehicle.machine]].map(|machine| machine.name.as_str());
+            !line.allows(names) && vehicle.meets(&bodies).is_none()
+        };
+        for (part, of) in machine.parts.iter().enumerate() {
+            let Some(surface) = surface(&of.primitive) else { continue };
+            let mut others = vehicles.iter().filter(|vehicle| vehicle.machine != number);
+            let through = others.find_map(|vehicle| {
+                let (at, body) = vehicle.meets(&surface)?;
+                let found =
+                    DrivenThrough { vehicle: vehicle.machine, body: body.into(), machine: number, part, at };
+                is_free(vehicle).then_some(found)
+            });
+            found.extend(through);
+        }
+    }
+    found
+}
+
+/// What stands still.
+struct Thing {
+    pieces: Vec<Placed>,
+    bounds: BoundingBox,
+}
+
+impl Thing {
+    fn new(pieces: Vec<Placed>) -> Self {
+        let bounds = around(pieces.iter().map(Placed::bounds));
+        Self { pieces, bounds }
+    }
+
+    fn ball(&self) -> Ball {
+        let [low, high] = self.bounds.corners();
+        Ball { middle: low + (high - low).scaled(0.5), radius: (high - low).length() / 2.0 }
+    }
+
+    fn meets(&self, body: &Placed) -> bool {
+        let may_meet = |piece: &&Placed| body.apart_at_least(piece, f64::MIN_POSITIVE) <= 0.0;
+        self.pieces.iter().filter(may_meet).any(|piece| body.gap(piece).distance <= 0.0)
+    }
+}
+
+struct Vehicle {
+    machine: usize,
+    bodies: Vec<Piece>,
+    /// No point of a body is farther from its position, m.
+    reach: f64,
+    ways: Vec<Way>,
+    whole: BoundingBox,
+}
+
+/// A straight piece on which a vehicle does not turn.
+struct Way {
+    from: Frame,
+    ahead: Point,
+    length: f64,
+    /// Contains all bodies all the way.
+    bounds: BoundingBox,
+}
+
+impl Vehicle {
+    /// None of a machine that is no vehicle, or without bodies.
+    fn new(number: usize, machine: &Machine) -> Option<Self> {
+        let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::Route);
+        let bodies = solids.map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
+        let bodies: Vec<Piece> = bodies.collect();
+        let reach =
+            bodies.iter().map(|body| body.ball().middle.length() + body.ball().radius).reduce(f64::max)?;
+        let ways: Vec<Way> = ways(machine).into_iter().map(|(yaw, ends)| way(&bodies, yaw, ends)).collect();
+        let whole = around(ways.iter().map(|way| way.bounds));
+        Some(Self { machine: number, bodies, reach, ways, whole })
+    }
+
+    /// Where the vehicle is when one of its bodies meets a thing, and the name of the body.
+    fn meets(&self, thing: &Thing) -> Option<(Point, &str)> {
+        if thing.pieces.is_empty() || self.whole.is_apart(&thing.bounds) {
+            return None;
+        }
+        let near = self.ways.iter().filter(|way| !way.bounds.is_apart(&thing.bounds));
+        near.flat_map(|way| way.near(thing.ball(), self.reach)).find_map(|frame| {
+            let pose = frame.pose();
+            let body = self.bodies.iter().find(|body| thing.meets(&body.within(&pose)))?;
+            Some((frame.position, body.name.as_str()))
+        })
+    }
+}
+
+impl Way {
+    /// Places on it from which a ball may be reached.
+    fn near(&self, ball: Ball, reach: f64) -> impl Iterator<Item = Frame> + '_ {
+        let middle = (ball.middle - self.from.position).dot(self.ahead);
+        let reach = ball.radius + reach;
+        let (begin, end) = ((middle - reach).max(0.0), (middle + reach).min(self.length));
+        let steps = ((end - begin) / STEP).ceil().clamp(1.0, MOST_STEPS);
+        let step = (end - begin) / steps;
+        let count = if end < begin { 0 } else { steps as usize + 1 };
+        (0..count).map(move |number| {
+            let place = begin + step * number as f64;
+            Frame { position: self.from.position + self.ahead.scaled(place), ..self.from }
+        })
+    }
+}
+
+/// Its ways: the direction in which it looks, and both ends.
+fn ways(machine: &Machine) -> Vec<(f64, [Point; 2])> {
+    if let Some(track) = machine.track() {
+        let heading = |[from, to]: [Point; 2]| libm::atan2(to.y - from.y, to.x - from.x).to_degrees();
+        return track.sides().into_iter().map(|ends| (heading(ends), ends)).collect();
+    }
+    let stops = machine.stops();
+    let from_each = stops.iter().enumerate().map(|(number, from)| (from, &stops[number + 1..]));
+    from_each.flat_map(|(from, others)| others.iter().map(move |to| (0.0, [*from, *to]))).collect()
+}
+
+fn way(bodies: &[Piece], yaw: f64, [from, to]: [Point; 2]) -> Way {
+    let places = [from, to].map(|end| Frame::new(end, yaw).pose());
+    let bounds = around(places.iter().flat_map(|pose| bodies.iter().map(|body| body.within(pose).bounds())));
+    let length = (to - from).length();
+    let ahead = (to - from).scaled(1.0 / length.max(f64::MIN_POSITIVE));
+    Way { from: Frame::new(from, yaw), ahead, length, bounds }
+}
+
+/// The surface of a conveyor or of the floor of a place, as plates under it; none of one that is moved.
+fn surface(primitive: &Primitive) -> Option<Thing> {
+    let plate = |frame: Frame, length: f64, width: f64| {
+        let middle = frame.point(Point::new(0.0, 0.0, -PLATE / 2.0));
+        let shape = Shape::Box { size: Point::new(length, width, PLATE) };
+        Piece::new(String::new(), &Frame { position: middle, ..frame }.pose(), shape).within(&Pose::IDENTITY)
+    };
+    match primitive {
+        Primitive::Lane(lane) if lane.on.is_none() => {
+            let line = &lane.centre_line;
+            let is_straight = match line {
+                CentreLine::Axis { .. } => true,
+                CentreLine::Line { rise, .. } => *rise == 0.0,
+                CentreLine::Arc { .. } => false,
+            };
+            let count = if is_straight {
+                1
+            } else {
+                (line.length() / STRETCH).ceil().clamp(1.0, MOST_PLATES) as usize
+            };
+            let length = line.length() / count as f64;
+            let middle = |number: usize| line.frame(line.end() + length * (number as f64 + 0.5));
+            Some(Thing::new((0..count).map(|number| plate(middle(number), length, lane.width)).collect()))
+        }
+        Primitive::Place(place) if place.on.is_none() && place.facing == Facing::Down => {
+            let [x, y] = [place.floor_x, place.floor_y];
+            let middle = Point::new((x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0, 0.0);
+            let frame = Frame::new(place.at + place.floor + middle, 0.0);
+            Some(Thing::new(vec![plate(frame, x[1] - x[0], y[1] - y[0])]))
+        }
+        _ => None,
+    }
+}
+
+fn around(all: impl Iterator<Item = BoundingBox>) -> BoundingBox {
+    all.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
+}
