@@ -84,7 +84,15 @@ fn a_sink_that_waits_for_a_kind_which_nobody_brings_is_an_error() {
 
 #[test]
 fn a_source_without_parts_is_named_where_a_line_waits() {
-    let folder = changed("empty", &[("buffer_station.scenario.json", "\"times\": 8", "\"times\": 3")]);
+    let scenario = "buffer_station.scenario.json";
+    let folder = changed(
+        "empty",
+        &[
+            (scenario, "\"times\": 8", "\"times\": 3"),
+            (scenario, "{\"box\": 8}", "{\"box\": 3}"),
+            (scenario, "\"operator\"", "\"time_limit_s\": 8, \"operator\""),
+        ],
+    );
     let output = autogen(&folder, &["why", "buffer_station.json"]);
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     assert_eq!(status(&output), 0, "{}", errors(&output));

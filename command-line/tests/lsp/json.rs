@@ -148,7 +148,7 @@ fn scenarios_know_the_machines_of_their_layout() {
     assert_eq!(labels("\"faults\": {\"slips\": [{\"robot\": \"^"), ["arm"]);
     assert_eq!(labels("\"faults\": {\"answers\": [{\"robot\": \"^"), ["arm", "belt"]);
     assert_eq!(labels("\"faults\": {\"jams\": [{\"robot\": \"^"), ["arm", "belt", "station"]);
-    assert_eq!(labels("\"faults\": {\"jams\": [{\"robot\": \"arm\", \"part\": \"^"), ["arm"]);
+    assert_eq!(labels("\"faults\": {\"jams\": [{\"robot\": \"arm\", \"part\": \"^"), ["joints"]);
     assert_eq!(labels("\"faults\": {\"slow\": [{\"robot\": \"^"), [] as [&str; 0]);
     assert!(labels("\"faults\": {\"sensors\": [{\"robot\": \"^").contains(&"belt".into()));
     let signals = labels("\"faults\": {\"sensors\": [{\"robot\": \"belt\", \"signal\": \"^");
