@@ -18,6 +18,11 @@ automaton Gate on post is Zone {
     initial state Waits { when rung -> Rung { rung := false; } }
     state Rung { when false -> Rung {} }
 }
+/// It sees the zones, and writes nothing of theirs.
+automaton Eye on post {
+    knows zones: Zone[1..];
+    initial state Looks { when exists z in zones: z.held -> Looks {} }
+}
 automaton Arm on bench {
     knows zones: Zone[1..];
     initial -> Rising { go(1); }
@@ -30,7 +35,8 @@ automaton Arm on bench {
 fn accounts(gates: usize) -> Value {
     let gates = (1..=gates).map(|n| format!(r#"{{"name": "gate{n}", "type": "gate", "pose": [{n}, 0, 0]}}"#));
     let arms = [1, 2].map(|n| format!(r#"{{"name": "arm{n}", "type": "arm", "pose": [{n}, 5, 0]}}"#));
-    let robots: Vec<String> = gates.chain(arms).collect();
+    let eye = r#"{"name": "eye", "type": "eye", "pose": [0, 9, 0]}"#.to_string();
+    let robots: Vec<String> = gates.chain(arms).chain([eye]).collect();
     let texts = Texts {
         layout: format!(r#"{{"robots": [{}]}}"#, robots.join(", ")),
         specs: vec![TYPES.into()],
@@ -52,8 +58,9 @@ fn a_lock_that_another_holds_is_waited_for_and_the_answer_to_a_command_is_not() 
     assert_eq!([&first["working_s"], &second["working_s"]], [6.0, 6.0]);
     assert_eq!(first["waiting_for"], json!({}));
     assert_eq!(second["waiting_for"], json!({"gate1": 6.0}));
-    // Its own cell is rung by those that know it.
+    // Its own cell is rung by the arms, and by nobody else that knows it.
     let gate = &accounts["gate1"];
+    assert_eq!(gate["waiting_for"]["eye"], Value::Null);
     assert_eq!(gate["waiting_for"]["arm1"], gate["waiting_for"]["arm2"]);
     assert!(gate["waiting_for"]["arm1"].as_f64().expect("seconds") > 8.0, "{accounts}");
 }

@@ -1,11 +1,14 @@
 //! What a machine awaits in a state in which no command is under way: others, or a timer or a signal of its own.
 
-use crate::ir::{Automaton, InterfaceId, Role, RoleKind, Rule, System};
+use crate::ir::{Automaton, InterfaceId, Place, Role, RoleKind, System};
 use crate::reads::{ReadCell, Reads, Whose};
 use std::collections::BTreeSet;
 
-/// Those that work with an instance, with the interface that they see of it.
-pub type Partners = Vec<(InterfaceId, usize)>;
+/// A cell of an interface.
+type Cell = (InterfaceId, usize);
+
+/// Of an instance: its cells that others write, each with one who may do so.
+pub type Partners = Vec<(Cell, usize)>;
 
 /// The members of a role that may be awaited one by one: of a `knows` with more of them, such as all zones of a line, it
 /// would tell nothing who they are.
@@ -16,16 +19,31 @@ fn can_be_awaited(role: &Role, rows: &[usize]) -> bool {
 }
 
 pub fn partners(system: &System) -> Vec<Partners> {
+    let written: Vec<BTreeSet<Cell>> = system.model.automata.iter().map(written_of_others).collect();
     let mut partners = vec![Partners::new(); system.instances.len()];
     for (partner, instance) in system.instances.iter().enumerate() {
         for (role, rows) in system.automaton_of(partner).roles.iter().zip(&instance.roles) {
             if can_be_awaited(role, rows) {
                 let members = &system.members[role.interface.0];
-                rows.iter().for_each(|row| partners[members[*row]].push((role.interface, partner)));
+                let cells = written[instance.automaton.0].iter().filter(|cell| cell.0 == role.interface);
+                for (row, cell) in rows.iter().flat_map(|row| cells.clone().map(move |cell| (row, cell))) {
+                    partners[members[*row]].push((*cell, partner));
+                }
             }
         }
     }
     partners
+}
+
+fn written_of_others(automaton: &Automaton) -> BTreeSet<Cell> {
+    let transitions = automaton.states.iter().flat_map(|state| &state.transitions);
+    let targets =
+        transitions.flat_map(|transition| &transition.updates).filter_map(|update| update.kind.target());
+    let cells = targets.filter_map(|target| match target.place {
+        Place::Cell { interface, cell, of: Some(_), .. } => Some((interface, cell)),
+        _ => None,
+    });
+    cells.collect()
 }
 
 /// Who writes the cells that guards read, but for the instance itself.
@@ -33,12 +51,10 @@ pub fn others(system: &System, partners: &[Partners], instance: usize, guards: &
     let mut others = BTreeSet::new();
     for ReadCell { interface, cell, of } in &guards.cells {
         match of {
-            // A cell of its own is awaited from those that may write it too.
+            // A cell of its own is awaited from those that write it too.
             Whose::Own => {
-                if !matches!(system.model.interface(*interface).cells[*cell].rule, Rule::Owner) {
-                    let see_it = partners[instance].iter().filter(|(i, _)| i == interface);
-                    others.extend(see_it.map(|(_, partner)| *partner));
-                }
+                let of_cell = partners[instance].iter().filter(|(of, _)| *of == (*interface, *cell));
+                others.extend(of_cell.map(|(_, partner)| *partner));
             }
             Whose::Others => {
                 let roles = system.automaton_of(instance).roles.iter().zip(&system.instances[instance].roles);
