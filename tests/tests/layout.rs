@@ -159,6 +159,15 @@ fn an_automaton_that_no_type_names_is_to_be_renamed() {
         assert!(help[0].starts_with(&start) && help[0].ends_with(&end), "{help:?}");
         assert_eq!(told(other, new_type), Vec::<String>::new());
     }
+    let unnamed = Texts {
+        specs: vec!["automaton _ on bin { initial state S { when false -> S {} } }".into()],
+        ..Texts::of_layout(r#"{"robots": [{"name": "it", "type": "_", "pose": [0, 0, 0]}]}"#)
+    };
+    let found = unnamed.compile().diagnostics;
+    assert!(
+        found[0].code == "E0126" && found[0].help.ends_with("without underscores; rename it"),
+        "{found:?}"
+    );
 }
 
 /// A lane with a wrong setting is the cause, and not that there is no lane.

@@ -97,12 +97,14 @@ fn without_automaton(object: &Object, name: &str, model: &Model) -> Diagnostic {
     });
     let help = match (without_type, suggestion(kind, known.iter().map(String::as_str))) {
         (Some(automaton), _) => {
-            let other = words(automaton);
+            let other = automaton_name(&words(automaton));
+            let rename = match other.starts_with(|first: char| first.is_ascii_uppercase()) {
+                true => format!("rename it `{other}`, whose type is \"{}\"", json_type(&other)),
+                false => "rename it".into(),
+            };
             format!(
                 "a layout cannot name the automaton `{automaton}`: each word of its name has to begin with a capital letter, \
-                 without underscores; rename it `{}`, whose type is \"{}\"",
-                automaton_name(&other),
-                json_type(&automaton_name(&other))
+                 without underscores; {rename}"
             )
         }
         (None, Some(near)) => {
