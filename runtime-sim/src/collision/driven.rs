@@ -29,12 +29,12 @@ const PLATE: f64 = 0.005;
 /// A conveyor that rises or turns is taken for straight plates of this length, m; longer ones if there were too many.
 const STRETCH: f64 = 0.2;
 const MOST_PLATES: f64 = 200.0;
-/// From one look at a vehicle to the next one on its way, m; more if there were too many.
+/// From one look at a vehicle to the next one, m; more if there were too many.
 const STEP: f64 = 0.05;
 const MOST_STEPS: f64 = 2000.0;
 
 /// One for each surface, in the order of the machines; none of what a cylinder or a positioner moves, of pairs that may
-/// touch, and of machines with a body in the way, because a run finds that contact.
+/// touch, and of machines with a body that is hit too, because a run finds that contact.
 pub fn driven_through(line: &Line) -> Vec<DrivenThrough> {
     let machines = || line.machines.iter().enumerate();
     let vehicles: Vec<Vehicle> =
@@ -43,7 +43,7 @@ pub fn driven_through(line: &Line) -> Vec<DrivenThrough> {
     for (number, machine) in machines().filter(|_| !vehicles.is_empty()) {
         let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::World);
         let pieces = solids.map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
-        let bodies = Thing::new(pieces.map(|piece| piece.within(&Pose::IDENTITY)).collect());
+        let bodies = Standing::new(pieces.map(|piece| piece.within(&Pose::IDENTITY)).collect());
         let is_free = |vehicle: &Vehicle| {
             let names = [machine, &line.machines[vehicle.machine]].map(|machine| machine.name.as_str());
             !line.allows(names) && vehicle.meets(&bodies).is_none()
@@ -64,12 +64,12 @@ pub fn driven_through(line: &Line) -> Vec<DrivenThrough> {
 }
 
 /// What stands still.
-struct Thing {
+struct Standing {
     pieces: Vec<Placed>,
     bounds: BoundingBox,
 }
 
-impl Thing {
+impl Standing {
     fn new(pieces: Vec<Placed>) -> Self {
         let bounds = around(pieces.iter().map(Placed::bounds));
         Self { pieces, bounds }
@@ -91,16 +91,16 @@ struct Vehicle {
     bodies: Vec<Piece>,
     /// No point of a body is farther from its position, m.
     reach: f64,
-    ways: Vec<Way>,
+    segments: Vec<Segment>,
     whole: BoundingBox,
 }
 
 /// A straight piece on which a vehicle does not turn.
-struct Way {
+struct Segment {
     from: Frame,
     ahead: Point,
     length: f64,
-    /// Contains all bodies all the way.
+    /// Contains all bodies from end to end.
     bounds: BoundingBox,
 }
 
@@ -112,26 +112,27 @@ impl Vehicle {
         let bodies: Vec<Piece> = bodies.collect();
         let reach =
             bodies.iter().map(|body| body.ball().middle.length() + body.ball().radius).reduce(f64::max)?;
-        let ways: Vec<Way> = ways(machine).into_iter().map(|(yaw, ends)| way(&bodies, yaw, ends)).collect();
-        let whole = around(ways.iter().map(|way| way.bounds));
-        Some(Self { machine: number, bodies, reach, ways, whole })
+        let segments: Vec<Segment> =
+            segments(machine).into_iter().map(|(yaw, ends)| segment(&bodies, yaw, ends)).collect();
+        let whole = around(segments.iter().map(|segment| segment.bounds));
+        Some(Self { machine: number, bodies, reach, segments, whole })
     }
 
-    /// Where the vehicle is when one of its bodies meets a thing, and the name of the body.
-    fn meets(&self, thing: &Thing) -> Option<(Point, &str)> {
-        if thing.pieces.is_empty() || self.whole.is_apart(&thing.bounds) {
+    /// Where the vehicle is when one of its bodies meets something that stands, and the name of the body.
+    fn meets(&self, standing: &Standing) -> Option<(Point, &str)> {
+        if standing.pieces.is_empty() || self.whole.is_apart(&standing.bounds) {
             return None;
         }
-        let near = self.ways.iter().filter(|way| !way.bounds.is_apart(&thing.bounds));
-        near.flat_map(|way| way.near(thing.ball(), self.reach)).find_map(|frame| {
+        let near = self.segments.iter().filter(|segment| !segment.bounds.is_apart(&standing.bounds));
+        near.flat_map(|segment| segment.near(standing.ball(), self.reach)).find_map(|frame| {
             let pose = frame.pose();
-            let body = self.bodies.iter().find(|body| thing.meets(&body.within(&pose)))?;
+            let body = self.bodies.iter().find(|body| standing.meets(&body.within(&pose)))?;
             Some((frame.position, body.name.as_str()))
         })
     }
 }
 
-impl Way {
+impl Segment {
     /// Places on it from which a ball may be reached.
     fn near(&self, ball: Ball, reach: f64) -> impl Iterator<Item = Frame> + '_ {
         let middle = (ball.middle - self.from.position).dot(self.ahead);
@@ -147,8 +148,8 @@ impl Way {
     }
 }
 
-/// Its ways: the direction in which it looks, and both ends.
-fn ways(machine: &Machine) -> Vec<(f64, [Point; 2])> {
+/// Its segments: the direction in which it looks, and both ends.
+fn segments(machine: &Machine) -> Vec<(f64, [Point; 2])> {
     if let Some(track) = machine.track() {
         let heading = |[from, to]: [Point; 2]| libm::atan2(to.y - from.y, to.x - from.x).to_degrees();
         return track.sides().into_iter().map(|ends| (heading(ends), ends)).collect();
@@ -158,16 +159,16 @@ fn ways(machine: &Machine) -> Vec<(f64, [Point; 2])> {
     from_each.flat_map(|(from, others)| others.iter().map(move |to| (0.0, [*from, *to]))).collect()
 }
 
-fn way(bodies: &[Piece], yaw: f64, [from, to]: [Point; 2]) -> Way {
+fn segment(bodies: &[Piece], yaw: f64, [from, to]: [Point; 2]) -> Segment {
     let places = [from, to].map(|end| Frame::new(end, yaw).pose());
     let bounds = around(places.iter().flat_map(|pose| bodies.iter().map(|body| body.within(pose).bounds())));
     let length = (to - from).length();
     let ahead = (to - from).scaled(1.0 / length.max(f64::MIN_POSITIVE));
-    Way { from: Frame::new(from, yaw), ahead, length, bounds }
+    Segment { from: Frame::new(from, yaw), ahead, length, bounds }
 }
 
 /// The surface of a conveyor or of the floor of a place, as plates under it; none of one that is moved.
-fn surface(primitive: &Primitive) -> Option<Thing> {
+fn surface(primitive: &Primitive) -> Option<Standing> {
     let plate = |frame: Frame, length: f64, width: f64| {
         let middle = frame.point(Point::new(0.0, 0.0, -PLATE / 2.0));
         let shape = Shape::Box { size: Point::new(length, width, PLATE) };
@@ -188,13 +189,13 @@ fn surface(primitive: &Primitive) -> Option<Thing> {
             };
             let length = line.length() / count as f64;
             let middle = |number: usize| line.frame(line.end() + length * (number as f64 + 0.5));
-            Some(Thing::new((0..count).map(|number| plate(middle(number), length, lane.width)).collect()))
+            Some(Standing::new((0..count).map(|number| plate(middle(number), length, lane.width)).collect()))
         }
         Primitive::Place(place) if place.on.is_none() && place.facing == Facing::Down => {
             let [x, y] = [place.floor_x, place.floor_y];
             let middle = Point::new((x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0, 0.0);
             let frame = Frame::new(place.at + place.floor + middle, 0.0);
-            Some(Thing::new(vec![plate(frame, x[1] - x[0], y[1] - y[0])]))
+            Some(Standing::new(vec![plate(frame, x[1] - x[0], y[1] - y[0])]))
         }
         _ => None,
     }
