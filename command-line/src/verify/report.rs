@@ -176,7 +176,7 @@ impl Report<'_> {
             Ok(replay) => replay,
             Err(why) => return format!("there is no run: {why}"),
         };
-        let course = match result {
+        let fired = match result {
             Ok(seconds) => format!("the same transitions have fired by {seconds:.2} s"),
             Err(why) => why.clone(),
         };
@@ -185,7 +185,7 @@ impl Report<'_> {
             Some(false) => "; the violation does not occur",
             None => "",
         };
-        format!("{course}{occurs}; the run ends: {}", self.teller.reason(report))
+        format!("{fired}{occurs}; the run ends: {}", self.teller.reason(report))
     }
 
     pub fn text(&self) -> String {

@@ -5,7 +5,7 @@ use crate::ir::Automaton;
 use crate::lower::Project;
 use crate::naming::{self, Scope};
 use runtime_sim::plant::By;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Names of graphs that are not those of an automaton.
@@ -40,15 +40,14 @@ fn connectivity(Project { system, edges, transfers, .. }: &Project) -> String {
         let (from, to) = (&system.instances[edge.from].name, &system.instances[edge.to].name);
         let _ = writeln!(text, "    {} -> {} [label = \"{:.3} m\"];", quoted(from), quoted(to), edge.margin);
     }
-    let between = transfers.iter().filter(|transfer| transfer.from.0 != transfer.to.0);
-    let conveyed: BTreeSet<[usize; 2]> = between
-        .clone()
-        .filter(|transfer| !matches!(transfer.by, By::Fall))
-        .map(|transfer| [transfer.from.0, transfer.to.0])
-        .collect();
-    let all: BTreeSet<[usize; 2]> = between.map(|transfer| [transfer.from.0, transfer.to.0]).collect();
-    for ends in all {
-        let label = if conveyed.contains(&ends) { "conveyor" } else { "may fall" };
+    let mut passages: BTreeMap<[usize; 2], bool> = BTreeMap::new();
+    for transfer in transfers.iter().filter(|transfer| transfer.from.0 != transfer.to.0) {
+        let falls = matches!(transfer.by, By::Fall);
+        let ends = [transfer.from.0, transfer.to.0];
+        passages.entry(ends).and_modify(|only_falls| *only_falls &= falls).or_insert(falls);
+    }
+    for (ends, only_falls) in passages {
+        let label = if only_falls { "may fall" } else { "conveyor" };
         let [from, to] = ends.map(|machine| quoted(&system.instances[machine].name));
         let _ = writeln!(text, "    {from} -> {to} [label = \"{label}\", style = dashed];");
     }

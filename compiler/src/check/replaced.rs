@@ -31,23 +31,17 @@ impl Checker<'_> {
     /// A role needs somebody who can have it.
     pub(super) fn lonely_roles(&mut self) {
         let trees = &self.declarations;
-        let is_read = |name: &str| {
-            trees
-                .automata
-                .iter()
-                .flat_map(|a| &a.roles)
-                .any(|r| r.interface.value == name || r.also.iter().any(|n| n.value == name))
-        };
         let is_implemented =
             |name: &str| trees.automata.iter().flat_map(|a| &a.implements).any(|i| i.interface.value == name);
         let roles = || trees.automata.iter().flat_map(|automaton| &automaton.roles);
         let asked = |name: &Name| {
             let mut names = roles().flat_map(|role| [&role.interface].into_iter().chain(&role.also));
-            names.find(|asked| asked.value == name.value).map_or(name.span, |asked| asked.span)
+            names.find(|asked| asked.value == name.value).map(|asked| asked.span)
         };
-        let lonely: Vec<(Name, Span)> = (trees.interfaces.iter().map(|i| &i.name))
-            .filter(|name| is_read(&name.value) && !is_implemented(&name.value))
-            .map(|name| (name.clone(), asked(name)))
+        let names = trees.interfaces.iter().map(|interface| &interface.name);
+        let lonely: Vec<(Name, Span)> = names
+            .filter(|name| !is_implemented(&name.value))
+            .filter_map(|name| Some((name.clone(), asked(name)?)))
             .collect();
         for (name, asked) in lonely {
             let message = format!("no automaton has the interface `{}`, which a role asks for", name.value);

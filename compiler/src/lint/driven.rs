@@ -1,4 +1,4 @@
-//! Conveyors and places in the way of a vehicle, where no contact is found.
+//! Conveyors and places through which a vehicle drives, where no contact is found.
 
 use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Object};
@@ -27,7 +27,7 @@ fn diagnostic(layout: &Layout, line: &Line, found: &DrivenThrough) -> Option<Dia
         .note(format!("it is there when the vehicle is at ({:.3}, {:.3})", found.at.x, found.at.y))
         .note("conveyors and places have no solid of their own: a run finds no contact there");
     Some(told.help(format!(
-        "move the way of the vehicle or {}; or give its device a body there, so that runs find the contact",
+        "move the path of the vehicle or {}; or give its device a body there, so that runs find the contact",
         machine.name
     )))
 }

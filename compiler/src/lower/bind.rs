@@ -91,10 +91,11 @@ fn without_automaton(object: &Object, name: &str, model: &Model) -> Diagnostic {
     let kind = &object.kind.value;
     let known: Vec<String> =
         model.automata.iter().filter(|a| has_type(&a.name)).map(|a| json_type(&a.name)).collect();
-    let without_type = model.automata.iter().map(|a| a.name.as_str()).find(|automaton| {
-        !has_type(automaton)
-            && (automaton == kind || json_type(automaton) == *kind || words(automaton) == words(kind))
-    });
+    let without_type = model
+        .automata
+        .iter()
+        .map(|a| a.name.as_str())
+        .find(|automaton| !has_type(automaton) && words(automaton) == words(kind));
     let help = match (without_type, suggestion(kind, known.iter().map(String::as_str))) {
         (Some(automaton), _) => {
             let other = automaton_name(&words(automaton));

@@ -221,46 +221,13 @@ impl<'a> {{ ty }}<'a> {
         if running{% if can_stop %} && !self.stopped{% endif %} { self.outputs } else { self.outputs.stopped() }
         {%- endif %}
     }
-    {%- if can_stop || !checks.others.is_empty() %}
+    {%- if !checks.body.is_empty() %}
 
     /// Checks the properties, after the steps of every scan{% if !masks.is_empty() %}. They see the outputs that are put out{% endif %}.
     pub fn properties(&{% if remembers %}mut {% endif %}self, {{ property_parameters }}) -> Result<(), Fault> {
-        {%- if can_stop %}
-        let at_rest = self.stopped;
-        {%- endif %}
-        {%- if !masks.is_empty() %}
-        let set = self.outputs;
-        {%- if !checks.stops.is_empty() %}
-        self.put_out();
-        {%- endif %}
-        {%- endif %}
-        {%- for check in checks.stops %}
-        {{ check }}
+        {%- for statement in checks.body %}
+        {{ statement }}
         {%- endfor %}
-        {%- if let Some(continues) = checks.continues %}
-        {{ continues }}
-        {%- endif %}
-        {%- if checks.has_pauses %}
-        let at_rest = at_rest || self.stopped;
-        {%- endif %}
-        {%- if masks.is_empty() %}
-        {%- for check in checks.others %}
-        {{ check }}
-        {%- endfor %}
-        Ok(())
-        {%- else %}
-        {%- if !checks.stops.is_empty() %}
-        self.outputs = set;
-        {%- endif %}
-        {%- if checks.others.is_empty() %}
-        Ok(())
-        {%- else %}
-        self.put_out();
-        let checked = self.check_others({% if checks.has_pauses %}at_rest, {% endif %}{{ other_arguments }});
-        self.outputs = set;
-        checked
-        {%- endif %}
-        {%- endif %}
     }
     {%- if !masks.is_empty() %}
 
@@ -271,16 +238,16 @@ impl<'a> {{ ty }}<'a> {
         self.outputs.{{ output }} = put.{{ output }};
         {%- endfor %}
     }
-    {%- if !checks.others.is_empty() %}
+    {%- endif %}
+    {%- if let Some(others) = checks.others %}
 
     /// Checks the properties that do not stop it.
-    fn check_others(&mut self{% if checks.has_pauses %}, at_rest: bool{% endif %}{% if !other_parameters.is_empty() %}, {{ other_parameters }}{% endif %}) -> Result<(), Fault> {
-        {%- for check in checks.others %}
-        {{ check }}
+    fn check_others(&mut self{% if !others.parameters.is_empty() %}, {{ others.parameters }}{% endif %}) -> Result<(), Fault> {
+        {%- for statement in others.statements %}
+        {{ statement }}
         {%- endfor %}
         Ok(())
     }
-    {%- endif %}
     {%- endif %}
     {%- endif %}
     {%- if can_stop || !counters.is_empty() %}

@@ -39,9 +39,6 @@ struct Module {
     failed: bool,
     checks: property::Checks,
     property_parameters: String,
-    /// Those of the properties that do not stop the robot.
-    other_parameters: String,
-    other_arguments: String,
     /// Outputs of which properties see what is put out.
     masks: Vec<String>,
     /// Properties keep something from scan to scan.
@@ -148,8 +145,6 @@ pub fn module(context: &Context) -> String {
         failed: asked.failed,
         checks: property::checks(context),
         property_parameters: context.parameters(&property::uses(context)),
-        other_parameters: context.parameters(&property::uses_of_others(context)),
-        other_arguments: context.arguments(&property::uses_of_others(context)),
         masks: automaton.masked.iter().map(|port| names.ports[*port].clone()).collect(),
         remembers: property::remembers(automaton),
         anew: property::anew(context),

@@ -13,11 +13,6 @@ pub fn uses(context: &Context) -> Uses {
     uses
 }
 
-/// What the properties that do not stop the robot need.
-pub fn uses_of_others(context: &Context) -> Uses {
-    uses_of(context, |property| property.severity != Severity::Machine)
-}
-
 fn uses_of(context: &Context, is_meant: impl Fn(&Property) -> bool) -> Uses {
     let mut uses = Uses::default();
     let automaton = context.automaton();
@@ -40,22 +35,60 @@ pub fn waits(automaton: &Automaton) -> bool {
     automaton.properties.iter().any(|p| matches!(p.kind, PropertyKind::Whenever { .. }))
 }
 
-/// Statements, one or more for each property.
+/// How a robot checks its properties.
+#[derive(Default)]
 pub struct Checks {
-    /// Properties that stop the robot.
-    pub stops: Vec<String>,
-    /// Whether it continues.
-    pub continues: Option<String>,
-    pub others: Vec<String>,
-    /// Some of the others count for nothing while the robot is at rest.
-    pub has_pauses: bool,
+    /// First the properties that stop the robot, then whether it continues, then the others. Empty if nothing is checked.
+    pub body: Vec<String>,
+    /// Of robots whose properties see other outputs than the automaton has set: the others, which the body calls.
+    pub others: Option<Others>,
+}
+
+pub struct Others {
+    pub parameters: String,
+    pub statements: Vec<String>,
 }
 
 pub fn checks(context: &Context) -> Checks {
     let automaton = context.automaton();
+    if automaton.properties.is_empty() && !automaton.can_stop() {
+        return Checks::default();
+    }
+    let [stops, others] = statements(context);
+    let is_masked = !automaton.masked.is_empty();
+    let line = |text: &str, is_needed: bool| is_needed.then(|| text.to_string());
+    let has_stops = !stops.is_empty();
+    let mut body: Vec<String> = Vec::new();
+    body.extend(line("let at_rest = self.stopped;", automaton.can_stop()));
+    body.extend(line("let set = self.outputs;", is_masked));
+    body.extend(line("self.put_out();", is_masked && has_stops));
+    body.extend(stops);
+    body.extend(continues(context));
+    body.extend(line("let at_rest = at_rest || self.stopped;", automaton.has_pauses()));
+    body.extend(line("self.outputs = set;", is_masked && has_stops));
+    if !is_masked || others.is_empty() {
+        body.extend(others);
+        body.push("Ok(())".into());
+        return Checks { body, others: None };
+    }
+    let uses = uses_of(context, |property| property.severity != Severity::Machine);
+    let with_rest = |at_rest: &str, more: String| {
+        let all = line(at_rest, automaton.has_pauses()).into_iter().chain([more]);
+        all.filter(|text| !text.is_empty()).collect::<Vec<_>>().join(", ")
+    };
+    let arguments = with_rest("at_rest", context.arguments(&uses));
+    body.push("self.put_out();".into());
+    body.push(format!("let checked = self.check_others({arguments});"));
+    body.extend(["self.outputs = set;".into(), "checked".into()]);
+    let parameters = with_rest("at_rest: bool", context.parameters(&uses));
+    Checks { body, others: Some(Others { parameters, statements: others }) }
+}
+
+/// One or more for each property: of those that stop the robot, and of the others.
+fn statements(context: &Context) -> [Vec<String>; 2] {
     let (mut stops, mut others) = (Vec::new(), Vec::new());
     let mut alarm = 0;
-    for property in &automaton.properties {
+    for property in &context.automaton().properties {
         let title = comment(&format!("{}: {}", context.line(property.place), property.text));
         let holds = holds(context, property);
         let text = |reaction: String| format!("{title}{holds}{reaction}");
@@ -69,7 +102,7 @@ pub fn checks(context: &Context) -> Checks {
         }
         alarm += usize::from(property.is_alarm());
     }
-    Checks { stops, continues: continues(context), others, has_pauses: automaton.has_pauses() }
+    [stops, others]
 }
 
 fn continues(context: &Context) -> Option<String> {
