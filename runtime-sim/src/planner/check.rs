@@ -8,7 +8,7 @@ use crate::point::Point;
 
 /// A path rounds the corners of its plan: it keeps off obstacles where the plan does not keep off quite as far.
 const ROUNDED: f64 = 0.5;
-/// A path is checked between so many equal parts, before it is from end to end.
+/// A plan is checked between so many equal parts.
 const FIRST_LOOKS: u32 = 32;
 /// Two are measured again at the latest when they have gone this part of what is kept.
 const SHORTEST_STEP: f64 = 0.6;
@@ -116,14 +116,9 @@ impl Planner {
         suspect: &mut f64,
     ) -> bool {
         let around = self.around(ends, path.knots().iter().map(axis), load, margin);
-        let is_apart = |place: f64| {
-            let joints = path.at(place);
-            let Asked { load, margin } = around.asked(self, &joints);
-            self.scene.gap(&around.near, &joints, load, [margin; 2]) >= margin
-        };
-        // Most that are not free are not by far.
-        if let Some(place) = [*suspect].into_iter().chain(first_looks()).find(|place| !is_apart(*place)) {
-            *suspect = place;
+        let joints = path.at(*suspect);
+        let asked = around.asked(self, &joints);
+        if self.scene.gap(&around.near, &joints, asked.load, [asked.margin; 2]) < asked.margin {
             return false;
         }
         let mut all: Vec<Checked> =
@@ -168,7 +163,7 @@ impl Planner {
     }
 }
 
-/// A plan is checked at these parts of its time first, a path at these places.
+/// A plan is checked at these parts of its time.
 fn first_looks() -> impl Iterator<Item = f64> {
     // Far from one another at first.
     let turned = |i: u32| i.reverse_bits() >> (FIRST_LOOKS.leading_zeros() + 1);
