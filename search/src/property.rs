@@ -14,6 +14,8 @@ pub struct Property {
     pub reads: Cells,
     /// It reads what may change in scans in which nothing else does.
     pub asks_inputs: bool,
+    /// It stops the machine, and reads outputs that have stop values then: it sees these from the next scan on.
+    pub sees_stop: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -85,7 +87,8 @@ impl Scan<'_> {
         for (instance, program) in model.instances.iter().enumerate() {
             let is_touched = |scan: &Self| (touched | scan.fired) & bit(instance) != 0;
             let may_be_due = program.property_reads.is_none_or(|reads| self.written.meets(reads));
-            if !may_be_due && !is_touched(self) {
+            let was_stopped = program.stopped.is_some_and(|stopped| stopped.load(self.before) != 0);
+            if !may_be_due && !was_stopped && !is_touched(self) {
                 continue;
             }
             let mut stops = false;
@@ -95,8 +98,10 @@ impl Scan<'_> {
                     stops = false;
                 }
                 let stands = program.stopped.is_some_and(|stopped| stopped.load(self.bytes) != 0);
-                let is_due =
-                    is_touched(self) || self.written.meets(property.reads) || property.is_due_always();
+                let is_due = is_touched(self)
+                    || self.written.meets(property.reads)
+                    || property.is_due_always()
+                    || was_stopped && property.sees_stop;
                 if is_due && self.is_violated(instance, number, stands) {
                     let fault = property.fault;
                     match property.effect {

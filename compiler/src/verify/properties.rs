@@ -91,7 +91,9 @@ impl Instance<'_> {
             let reads = read_by(property).into_iter().map(|expr| self.cells_of(expr));
             let reads = reads.fold(Cells::default(), |all, cells| all | cells);
             let asks_inputs = self.asks_inputs;
-            found.push(Property { check, fault: property.site.0, effect, reads, asks_inputs });
+            let sees_stop = effect == Effect::StopsMachine
+                && read_by(property).into_iter().any(|expr| self.reads_masked(expr));
+            found.push(Property { check, fault: property.site.0, effect, reads, asks_inputs, sees_stop });
         }
         self.sees_what_is_put_out = false;
         found.sort_by_key(|property| property.effect != Effect::StopsMachine);
@@ -137,6 +139,16 @@ impl Instance<'_> {
 
     fn kept(&self, ty: Scalar) -> super::memory::Kept {
         kept(ty, |ty| self.line.members(ty))
+    }
+
+    /// Whether an expression reads an output that has a stop value while the machine is stopped.
+    fn reads_masked(&self, expr: &Expr) -> bool {
+        let own = match &expr.kind {
+            ExprKind::Define(define) => self.reads_masked(&self.automaton.defines[*define].value),
+            ExprKind::Read(Place::Port { port, .. }) => self.automaton.masked.contains(port),
+            _ => false,
+        };
+        own || expr.parts().into_iter().any(|part| self.reads_masked(part))
     }
 
     /// The cells that an expression reads.
