@@ -102,7 +102,7 @@ impl<'a> Search<'a> {
         postpones: bool,
         watch: &'a mut dyn FnMut(&Covered) -> bool,
     ) -> Self {
-        let cut = Cut::new(bounds.time.and_then(|time| begin.checked_add(time)));
+        let cut = Cut::new(until(bounds, begin));
         cut.allow(bounds.memory / bounds.jobs.max(1));
         let expander = || {
             let mut expander = Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
@@ -385,7 +385,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let (mut earlier, mut certain) = (None, Certain::default());
     loop {
         let states = covered.states;
-        refinement::at_random(&mut model, &mut random, states, &mut || {
+        refinement::at_random(&mut model, &mut random, states, until(bounds, begin), &mut || {
             goes_on(&mut covered, begin, bounds, watch)
         });
         match attempt(&model, bounds, begin, postpones, watch) {
@@ -400,12 +400,17 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
                     postpones = false;
                     earlier = Some(undecided.or_checked(&farthest));
                 }
-                refinement::along(&mut model, bounds, &again.refinements, &mut || {
+                refinement::along(&mut model, bounds, &again.refinements, until(bounds, begin), &mut || {
                     goes_on(&mut covered, begin, bounds, watch)
                 });
             }
         }
     }
+}
+
+/// When the limit of time is reached.
+fn until(bounds: &Bounds, begin: Instant) -> Option<Instant> {
+    bounds.time.and_then(|time| begin.checked_add(time))
 }
 
 /// Whether there is time left, and whoever watches wants more.

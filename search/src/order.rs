@@ -155,7 +155,7 @@ impl Expander<'_> {
                         earlier = (earlier - 1) & newly;
                     }
                     self.reach(after, reached);
-                    if !self.choices.advance() {
+                    if self.is_cut() || !self.choices.advance() {
                         break;
                     }
                 }
@@ -236,7 +236,7 @@ impl Expander<'_> {
                 told: &end.told,
             });
             self.spare.push(end.bytes);
-            if !self.choices.advance() {
+            if self.is_cut() || !self.choices.advance() {
                 return;
             }
         }

@@ -1,12 +1,15 @@
 //! Refinement of what is forgotten: values that have to be known are kept. Single executions show most of them with little
 //! effort; a search that comes upon one begins anew.
 
+use crate::cut::Cut;
 use crate::explore::Bounds;
 use crate::model::Model;
 use crate::reached::Reached;
 use crate::story;
 use crate::successor::{Expander, Orders};
 use crate::unread::Needed;
+use std::sync::Arc;
+use std::time::Instant;
 
 /// An execution at random has so many scans at most.
 const SCANS: usize = 300;
@@ -19,16 +22,20 @@ const MANY: usize = 1000;
 /// One of so many scans may be chosen among those before which devices fail.
 const FAILING: u64 = 4;
 
-/// Keeps what is asked for in executions at random, after a search of so many states; until it `goes_on` no more.
+/// Keeps what is asked for in executions at random, after a search of so many states; until it `goes_on` no more, and no
+/// longer than `until`.
 pub(crate) fn at_random(
     model: &mut Model,
     random: &mut Random,
     states: usize,
+    until: Option<Instant>,
     goes_on: &mut dyn FnMut() -> bool,
 ) {
+    let cut = Cut::new(until);
     let mut fruitless = 0;
     while fruitless < (states / STATES).clamp(FRUITLESS, MANY) && !model.unread.is_empty() && goes_on() {
         let mut expander = Expander::new(model, 1, Orders::One);
+        expander.cut = cut.clone();
         let mut state = model.initial.clone();
         let mut next = vec![0; state.len()];
         for _ in 0..SCANS {
@@ -85,18 +92,21 @@ impl Refinement {
     }
 }
 
-/// Keeps what was asked for; and what else is asked for on the path there, once that is known, until it `goes_on` no more.
+/// Keeps what was asked for; and what else is asked for on the path there, once that is known, until it `goes_on` no more,
+/// and no longer than `until`.
 pub(crate) fn along(
     model: &mut Model,
     bounds: &Bounds,
     refinements: &[Refinement],
+    until: Option<Instant>,
     goes_on: &mut dyn FnMut() -> bool,
 ) {
     let needed: Vec<Needed> = refinements.iter().map(|refinement| refinement.needed).collect();
     model.unread.keep(&needed);
+    let cut = Cut::new(until);
     for refinement in refinements {
         while goes_on()
-            && let needed = asked_for(model, bounds, &refinement.scans)
+            && let needed = asked_for(model, bounds, &refinement.scans, &cut)
             && !needed.is_empty()
         {
             model.unread.keep(&needed);
@@ -104,8 +114,9 @@ pub(crate) fn along(
     }
 }
 
-fn asked_for(model: &Model, bounds: &Bounds, scans: &[usize]) -> Vec<Needed> {
+fn asked_for(model: &Model, bounds: &Bounds, scans: &[usize], cut: &Arc<Cut>) -> Vec<Needed> {
     let mut expander = Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
+    expander.cut = cut.clone();
     let mut state = model.initial.clone();
     for scan in scans.iter().copied().map(Some).chain([None]) {
         let mut next = None;

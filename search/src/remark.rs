@@ -67,6 +67,7 @@ impl Possible<'_> {
         let Self { store, expander, allowance, .. } = self;
         let model = Model { faults: Faults::All, ..expander.model.clone() };
         let mut expander = Expander::new(&model, 1, expander.orders);
+        expander.cut = self.expander.cut.clone();
         expander.values.clone_from(&self.expander.values);
         let mut reached = vec![false; store.len()];
         reached[0] = true;
@@ -84,6 +85,7 @@ impl Possible<'_> {
                 }
             });
         }
+        allowance.check(0)?;
         Ok(reached)
     }
 

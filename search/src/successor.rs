@@ -302,7 +302,7 @@ impl<'a> Expander<'a> {
             let mut scan = self.begin();
             stays |= scan.run(&order, u64::MAX).is_ok() && self.work == state;
             self.order = order;
-            if stays || !self.choices.advance() {
+            if stays || self.is_cut() || !self.choices.advance() {
                 return stays;
             }
         }
