@@ -395,6 +395,17 @@ impl UpdateKind {
             Self::Copy { .. } | Self::Command { .. } => None,
         }
     }
+
+    /// All that is evaluated, once each.
+    pub fn exprs(&self) -> Vec<&Expr> {
+        let of_target = self.target().map(|target| target.place.parts()).unwrap_or_default();
+        let of_value = match self {
+            Self::Assign { value, .. } | Self::Fill { value, .. } => vec![value],
+            Self::Copy { source, .. } => source.parts(),
+            Self::Command { arguments, .. } => arguments.iter().map(|argument| &argument.value).collect(),
+        };
+        [of_target, of_value].concat()
+    }
 }
 
 #[derive(Clone, Debug)]

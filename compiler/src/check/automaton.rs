@@ -55,6 +55,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         broken: BTreeSet::new(),
         lacks_names: false,
         states: tree.states.iter().map(|s| s.name.value.clone()).collect(),
+        defined: Vec::new(),
         defined_below: Vec::new(),
         own_interface,
     };
@@ -368,6 +369,7 @@ impl Context<'_, '_> {
                 names.set_type(number, ty);
             }
             self.declare(&define.name, Symbol::Define(self.automaton.defines.len()));
+            self.defined.push(self.defined_as(&value));
             self.automaton.defines.push(ir::Define {
                 name: define.name.value.clone(),
                 doc: define.doc.clone(),

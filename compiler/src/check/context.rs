@@ -1,6 +1,7 @@
 //! What is known while an automaton is checked.
 
 use super::Checker;
+use super::decided::Defined;
 use super::facts::Facts;
 use super::names::{Number, Space};
 use crate::ir::{self, Scalar, VariableId};
@@ -41,6 +42,8 @@ pub struct Context<'c, 'a> {
     pub(super) lacks_names: bool,
     /// States, as the text names them.
     pub(super) states: Vec<String>,
+    /// Of the definitions, in their order.
+    pub(super) defined: Vec<Defined>,
     /// Definitions that have no meaning yet: the one at hand, and those below it.
     pub(super) defined_below: Vec<String>,
     /// Own interface, if the automaton shows something that no declared interface has.

@@ -9,7 +9,19 @@ use crate::ir::{Domain, Expr, ExprKind, KIND, Operator, Place, Scalar};
 use crate::source::Span;
 use crate::spec::written;
 
+/// What the declarations say of a definition.
+pub(super) struct Defined {
+    /// The text alone gives its value.
+    is_fixed: bool,
+    bounds: Option<Interval>,
+}
+
 impl Context<'_, '_> {
+    /// Definitions read those before them: each is looked at once.
+    pub(super) fn defined_as(&self, value: &Expr) -> Defined {
+        Defined { is_fixed: self.is_fixed(value), bounds: self.declared(value) }
+    }
+
     fn remark(&mut self, remark: Diagnostic) {
         let remarks = &mut self.checker.remarks;
         // A transition of `any state` is checked for each state.
@@ -66,7 +78,7 @@ impl Context<'_, '_> {
     fn is_fixed(&self, expr: &Expr) -> bool {
         match &expr.kind {
             ExprKind::Constant(_) => true,
-            ExprKind::Define(define) => self.is_fixed(&self.automaton.defines[*define].value),
+            ExprKind::Define(define) => self.defined[*define].is_fixed,
             ExprKind::Negate(_)
             | ExprKind::Absolute(_)
             | ExprKind::Min(..)
@@ -86,7 +98,7 @@ impl Context<'_, '_> {
             ExprKind::Constant(_) => facts::Facts::default().of(expr),
             ExprKind::Read(place) => facts::of_type(self.declared_type(place)),
             ExprKind::Variable(id) => facts::of_type(self.automaton.variables[id.0].ty.scalar),
-            ExprKind::Define(define) => self.declared(&self.automaton.defines[*define].value)?,
+            ExprKind::Define(define) => self.defined[*define].bounds?,
             ExprKind::Negate(inner) => {
                 let inner = self.declared(inner)?;
                 Interval::new(-inner.hi, -inner.lo)

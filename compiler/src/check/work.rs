@@ -2,10 +2,12 @@
 
 use super::context::Context;
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, Model, Scalar, VariableId};
+use crate::ir::{
+    Automaton, Clause, Domain, Expr, ExprKind, Model, Scalar, Transition, UpdateKind, VariableId,
+};
 use crate::source::Span;
 
-/// Operations that one guard, definition or condition may take at most.
+/// Operations that one transition, definition or condition may take at most.
 pub(crate) const MOST: u64 = 1_000_000;
 /// Members that a role without a greatest number is taken to have, before a layout is known.
 const MEMBERS: u64 = 16;
@@ -52,10 +54,10 @@ impl<'a> Work<'a> {
         work
     }
 
-    /// Of each guard and each property, with its place.
+    /// Of each transition and each property, with its place.
     pub fn of_scans(&self) -> Vec<(Span, u64)> {
         let transitions = self.automaton.states.iter().flat_map(|state| &state.transitions);
-        let mut found: Vec<_> = transitions.map(|t| (t.place, self.guard(&t.clauses))).collect();
+        let mut found: Vec<_> = transitions.map(|t| (t.place, self.transition(t))).collect();
         found.extend(self.automaton.properties.iter().map(|property| {
             let exprs = property.exprs().into_iter();
             (property.place, exprs.fold(0, |sum, expr| u64::saturating_add(sum, self.of(expr))))
@@ -75,6 +77,22 @@ impl<'a> Work<'a> {
             }
             _ => expr.parts().into_iter().fold(1, |sum, part| sum.saturating_add(self.of(part))),
         }
+    }
+
+    /// Updates come once, after the guard.
+    fn transition(&self, transition: &Transition) -> u64 {
+        let updates = transition.updates.iter().map(|update| self.update(&update.kind));
+        updates.fold(self.guard(&transition.clauses), u64::saturating_add)
+    }
+
+    fn update(&self, update: &UpdateKind) -> u64 {
+        let elements = match update {
+            UpdateKind::Fill { target, .. } | UpdateKind::Copy { target, .. } => {
+                self.model.elements(target.ty.extent) as u64
+            }
+            UpdateKind::Assign { .. } | UpdateKind::Command { .. } => 1,
+        };
+        update.exprs().into_iter().fold(elements, |sum, expr| sum.saturating_add(self.of(expr)))
     }
 
     /// Clauses are nested loops.
