@@ -251,7 +251,7 @@ pub struct SweepOptions {
     #[arg(long, value_name = "ROWS", requires = "report")]
     pub keep: Option<String>,
     /// Number of runs at the same time; default: one for each processor
-    #[arg(short, long, value_name = "N")]
+    #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub jobs: Option<NonZeroUsize>,
     #[command(flatten)]
     pub table: TableOptions,
@@ -327,7 +327,7 @@ pub struct VerifyOptions {
     #[arg(long, value_name = "LIMIT")]
     pub limit: Vec<String>,
     /// Number of processors that search; default: all
-    #[arg(short, long, value_name = "N")]
+    #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub jobs: Option<NonZeroUsize>,
     /// Continue after a violation, and report each different one
     #[arg(long)]
@@ -381,4 +381,12 @@ pub struct GraphOptions {
 pub struct ExplainOptions {
     /// Such as E0401
     pub code: String,
+}
+
+/// Threads at the same time: each takes memory of its own.
+const MOST_JOBS: usize = 1024;
+
+fn jobs(text: &str) -> Result<NonZeroUsize, String> {
+    let number = text.parse().ok().filter(|number: &NonZeroUsize| number.get() <= MOST_JOBS);
+    number.ok_or_else(|| format!("a whole number from 1 to {MOST_JOBS}"))
 }

@@ -29,6 +29,8 @@ use tracks::Track;
 const SAME: f64 = 2e-9;
 /// Times no farther apart are one, ms.
 const AT_ONCE: f64 = 1e-6;
+/// Times in a scan at which items on conveyors pass from one to another, stop or continue.
+const MOST_AT_ONCE: u32 = 100_000;
 
 /// All lanes of a line.
 #[derive(Clone, Debug)]
@@ -160,8 +162,19 @@ impl Conveying {
     }
 
     /// Everything that happens until a time, ms; the first item that falls by then, after which there may be more.
+    /// More than [`MOST_AT_ONCE`] times until then end the run.
     pub fn proceed(&mut self, among: &mut Among, until_ms: u64) -> Option<Falls> {
+        let mut times = 0;
         while self.next_ms <= until_ms as f64 + AT_ONCE {
+            times += 1;
+            if times > MOST_AT_ONCE {
+                if let Some(track) = self.tracks.first() {
+                    let reason =
+                        format!("items on conveyors go on at more than {MOST_AT_ONCE} times in a scan");
+                    among.items.crash(track.machine, reason);
+                }
+                return None;
+            }
             let falls = self.refresh(among, self.next_ms);
             if falls.is_some() {
                 return falls;
