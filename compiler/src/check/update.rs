@@ -131,10 +131,17 @@ impl Context<'_, '_> {
                 return None;
             }
             Place::Port { port, .. } => {
-                let port = &self.automaton.device.ports[*port];
+                let device = &self.automaton.device;
+                let port = &device.ports[*port];
+                let mut arguments = device.verbs.iter().flat_map(|verb| &verb.arguments);
+                let is_of_command = match port.name.as_str() {
+                    "cmd" | "verb" | "hold" => device.is_commanded(),
+                    "goal" => arguments.any(|argument| argument == "goal"),
+                    _ => false,
+                };
                 let help = if port.direction == Direction::Input {
                     "the device writes it; the automaton reads it"
-                } else if ["cmd", "verb", "hold", "goal"].contains(&port.name.as_str()) {
+                } else if is_of_command {
                     "a command writes it"
                 } else {
                     return Some((place, ty));

@@ -1,6 +1,7 @@
 //! Values of expressions in devices.
 
 use super::program::{Part, Program, Setting as Given, Symbol};
+use super::settle::nothing;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::source::Span;
 use crate::spec::ast::{self, ExprKind, Operator};
@@ -160,6 +161,18 @@ impl Environment<'_> {
         }
     }
 
+    /// Before there is a machine: whether what is wrong with these may be right for one. Its steps count here too.
+    fn depends_on_machine(&self, scope: usize, of: &[&ast::Expr]) -> bool {
+        if self.values != Values::Sample {
+            return false;
+        }
+        let without = nothing(self.program);
+        without.left.set(self.left.get());
+        let depends = of.iter().any(|expr| without.at(scope, expr, 0).is_err());
+        self.left.set(without.left.get());
+        depends
+    }
+
     fn fits(&self, form: Form, value: &Value) -> bool {
         let all = |wanted: fn(&Value) -> bool| match value {
             Value::List(values) => values.iter().all(wanted),
@@ -218,7 +231,12 @@ impl Environment<'_> {
                 _ => Err(wrong(expr.span, "only a number can be negated")),
             },
             ExprKind::Binary(operator, left, right) => {
-                combined(*operator, at(left)?, at(right)?).ok_or_else(|| {
+                let found = combined(*operator, at(left)?, at(right)?);
+                let found = found.map(|found| match is_finite(&found) {
+                    true => Some(found),
+                    false => self.depends_on_machine(scope, &[left, right]).then(|| finite(found)),
+                });
+                found.flatten().map(Found::Value).ok_or_else(|| {
                     let wrong = *wrong(expr.span, "this operator does not take these values");
                     wrong
                         .note("+ and - are for numbers and points, * and / for two numbers, * also for a frame and a point, a list of points or a frame")
@@ -235,7 +253,8 @@ impl Environment<'_> {
                         let element = (index_value.fract() == 0.0 && index_value >= 0.0)
                             .then(|| values.get(index_value as usize))
                             .flatten();
-                        element.cloned().map(Found::Value).ok_or_else(|| {
+                        let any = || values.first().filter(|_| self.depends_on_machine(scope, &[index]));
+                        element.or_else(any).cloned().map(Found::Value).ok_or_else(|| {
                             let wrong = *wrong(index.span, format!("there is no element {index_value}"));
                             wrong.note(format!("the list has {} elements", values.len())).into()
                         })
@@ -405,9 +424,22 @@ fn number(found: Found, span: Span) -> Result<f64, Wrong> {
     }
 }
 
-fn combined(operator: Operator, left: Found, right: Found) -> Option<Found> {
+fn combined(operator: Operator, left: Found, right: Found) -> Option<Value> {
     let (Found::Value(left), Found::Value(right)) = (left, right) else { return None };
-    joined(operator, &left, &right).filter(is_finite).map(Found::Value)
+    joined(operator, &left, &right)
+}
+
+/// With 1 for what is not finite.
+fn finite(value: Value) -> Value {
+    let number = |number: f64| if number.is_finite() { number } else { 1.0 };
+    let point = |Point { x, y, z }| Point::new(number(x), number(y), number(z));
+    match value {
+        Value::Number(value) => Value::Number(number(value)),
+        Value::Point(value) => Value::Point(point(value)),
+        Value::Frame(Frame { position, yaw }) => Value::Frame(Frame::new(point(position), number(yaw))),
+        Value::List(values) => Value::List(values.into_iter().map(finite).collect()),
+        other => other,
+    }
 }
 
 /// A division by 0 has no value, nor has what is too large.

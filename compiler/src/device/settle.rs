@@ -45,11 +45,15 @@ pub fn known(program: &Program, expr: &ast::Expr) -> Result<Found, Wrong> {
     nothing(program).found(0, expr)
 }
 
-fn nothing(program: &Program) -> Environment<'_> {
+/// In which nothing of a machine stands.
+pub fn nothing(program: &Program) -> Environment<'_> {
     let values = Values::OfMachine;
     let left = Cell::default();
     Environment { program, pose: None, arguments: &[], heights: None, index: None, values, left }
 }
+
+/// A scenario may have so many kinds.
+const KINDS: usize = 64;
 
 /// Expressions that are wrong whatever the layout says.
 pub fn wrong(
@@ -62,7 +66,7 @@ pub fn wrong(
         program,
         pose: Some(Frame::new(Point::new(0.5, 0.25, 1.0), 0.0)),
         arguments: &arguments,
-        heights: Some(&[Heights { top: 0.1, grasp: 0.1 }]),
+        heights: Some(&[Heights { top: 0.1, grasp: 0.1 }; KINDS]),
         index: None,
         values: Values::Sample,
         left: Cell::default(),

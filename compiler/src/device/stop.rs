@@ -4,6 +4,7 @@ use super::check::Checker;
 use super::type_text;
 use crate::spec::ast::{self, ExprKind};
 use runtime_sim::device::{Extent, PortType, Stop};
+use std::ops::RangeInclusive;
 
 impl Checker<'_> {
     /// One that does not fit its output is reported.
@@ -20,7 +21,10 @@ impl Checker<'_> {
         let help = match ty {
             PortType::Bool => "write `stop false` or `stop true`".into(),
             PortType::Int { lo, hi } => format!("write a whole number from {lo} to {hi}, or wider bounds"),
-            PortType::Real => "write a number, such as `stop 0.0` or `stop -1.5`".into(),
+            PortType::Real => {
+                "write a number, such as `stop 0.0` or `stop -1.5`: 0, or one between 1e-37 and 1e38 in size"
+                    .into()
+            }
             PortType::Point => "remove `stop`: a point keeps its last value".into(),
         };
         self.report("E0712", expr.span, message, help);
@@ -35,13 +39,16 @@ impl Checker<'_> {
     }
 }
 
+/// Of reals, as old tools for Structured Text read them.
+const SIZES: RangeInclusive<f64> = 1e-37..=1e38;
+
 fn value(ty: PortType, expr: &ast::Expr) -> Option<f64> {
     match (ty, &expr.kind) {
         (PortType::Bool, ExprKind::Bool(truth)) => Some(f64::from(u8::from(*truth))),
         (PortType::Int { lo, hi }, _) => whole(expr)
             .filter(|value| (i64::from(lo)..=i64::from(hi)).contains(value))
             .map(|value| value as f64),
-        (PortType::Real, _) => number(expr),
+        (PortType::Real, _) => number(expr).filter(|value| *value == 0.0 || SIZES.contains(&value.abs())),
         _ => None,
     }
 }
