@@ -228,6 +228,12 @@ fn alarms_from_before_a_loss_of_power_count_on_all_engines() {
     }
 }
 
+#[test]
+fn a_test_that_misses_alarms_tells_their_number() {
+    let output = alarms_of_presses("test_no_alarm", &[], "expect alarms >= 1;");
+    assert!(said(&output).contains("+             alarms = 0\n"), "{}{}", said(&output), errors(&output));
+}
+
 /// A test may pass although its fault did not come: then it says so.
 #[test]
 fn a_fault_that_a_run_does_not_come_to_is_told() {
