@@ -7,7 +7,6 @@ use crate::item;
 use crate::json::Json;
 use crate::line::{Goal, Line};
 use crate::machine::Machine;
-use crate::monitor;
 use crate::notes;
 use crate::plant::Plant;
 use crate::run;
@@ -38,7 +37,7 @@ pub struct Report {
     pub sinks: Vec<(String, String, u64)>,
     /// Of orders without end those that have opened.
     pub order_times: Vec<OrderTimes>,
-    /// Those that were raised, in layout order.
+    /// Those that were raised since the start of the run, in layout order.
     pub alarms: Vec<AlarmReport>,
     /// In layout order.
     pub machines: Vec<MachineReport>,
@@ -67,7 +66,7 @@ pub struct AlarmReport {
     pub count: u32,
     pub first_s: f64,
     pub last_s: f64,
-    /// What raised it lasts at the end.
+    /// What raised it lasts at the end. A loss of power ends it.
     pub active: bool,
     pub acknowledged: bool,
 }
@@ -109,8 +108,7 @@ pub(crate) struct Outcome {
     pub states: Vec<usize>,
     pub trace_hash: u64,
     pub collisions: Vec<Contact>,
-    /// The last trace of the controllers.
-    pub trace: Vec<f64>,
+    pub alarms: Vec<AlarmReport>,
 }
 
 fn names(line: &Line, machines: &[usize]) -> String {
@@ -154,7 +152,7 @@ impl Report {
             fault: outcome.fault.map(|(code, machine)| {
                 (code, machine.map_or_else(String::new, |machine| line.machines[machine].name.clone()))
             }),
-            alarms: alarms(line, &outcome.trace),
+            alarms: outcome.alarms,
             scan_ms: line.scan_ms,
             scans: outcome.scans,
             simulated_s,
@@ -318,28 +316,6 @@ fn sinks(line: &Line, plant: &Plant) -> Vec<(String, String, u64)> {
         (format!("{name}.{}", parts[part].name), line.kinds[kind].name.clone(), count)
     });
     named.collect()
-}
-
-/// The alarms that a trace has as raised.
-fn alarms(line: &Line, trace: &[f64]) -> Vec<AlarmReport> {
-    let of = |machine: &Machine| -> Vec<AlarmReport> {
-        let alarms = machine.monitor.alarms.iter().filter_map(|alarm| {
-            let [active, acknowledged, count, first, last] =
-                *trace.get(alarm.word..)?.first_chunk::<{ monitor::ALARM_WORDS }>()?;
-            let at = |scan: f64| seconds(scan as u64, line.scan_ms);
-            (count > 0.0).then(|| AlarmReport {
-                machine: machine.name.clone(),
-                code: alarm.code,
-                count: count as u32,
-                first_s: at(first),
-                last_s: at(last),
-                active: active != 0.0,
-                acknowledged: acknowledged != 0.0,
-            })
-        });
-        alarms.collect()
-    };
-    line.machines.iter().flat_map(of).collect()
 }
 
 pub(crate) fn seconds(scans: u64, scan_ms: u32) -> f64 {

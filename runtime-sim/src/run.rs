@@ -2,6 +2,7 @@
 
 mod accounts;
 mod agenda;
+mod alarms;
 mod changes;
 mod order_times;
 mod power;
@@ -23,6 +24,7 @@ use crate::system::Operator;
 use crate::wiring::{Drives, Source};
 use accounts::Accounts;
 use agenda::Agenda;
+use alarms::Alarms;
 use changes::Changes;
 pub(crate) use order_times::OrderTimes;
 use power::Unpowered;
@@ -144,6 +146,7 @@ fn simulate(
     // The scan since which the line does not run.
     let mut stands_since = Some(0);
     let mut trace = Vec::new();
+    let mut alarms = Alarms::new(line);
     let mut progress = Progress::new(line);
     let mut conservation = Conservation::new(plant.items());
     let mut order_times = vec![OrderTimes::default(); line.scenario.orders.len()];
@@ -161,6 +164,7 @@ fn simulate(
         if line.scenario.powers_up(scan) {
             lose_power(line, controllers, &agenda, scan);
             controllers.power_up();
+            alarms.power_up(&trace, scan);
             agenda.power_up();
         }
         agenda.arrive(arrived);
@@ -312,7 +316,7 @@ fn simulate(
         states,
         trace_hash: changes.hash(),
         collisions: check.into_contacts(),
-        trace,
+        alarms: alarms.until_end(&trace),
     };
     let recorded = recorders.map(|recorders| Recordings {
         paths: recorders.paths.finish(&plant),

@@ -11,6 +11,13 @@ device cart {
     part hull = body { on: drive; low: point(-0.3, -0.3, 0.05); high: point(0.3, 0.3, 0.9); };
     in stands: bool = drive.stands;
 }
+device tram {
+    part drive = track {
+        corners: [pose, pose + point(6, 0, 0)]; places: [2, 4]; begins: 3; speed: 1; acceleration: 1; mass: 50;
+    };
+    part hull = body { on: drive; low: point(-0.3, -0.3, 0.05); high: point(0.3, 0.3, 0.9); };
+    in stands: bool = drive.stands;
+}
 device shuttle {
     part drive = route {
         stops: [pose, pose + point(6, 0, 0)]; speed: 1; latency: 0 ms; tolerance: 0.1; mass: 50;
@@ -44,6 +51,7 @@ device table {
     out lit: bool = light.on;
 }
 automaton Cart on cart { initial state S { when false -> S {} } }
+automaton Tram on tram { initial state S { when false -> S {} } }
 automaton Shuttle on shuttle { initial state S { when false -> S {} } }
 automaton Conv on conv { initial state S { when false -> S {} } }
 automaton Framed on framed { initial state S { when false -> S {} } }
@@ -96,4 +104,30 @@ fn what_is_not_in_the_way_or_has_a_body_is_not_told() {
     }
     let allowed = r#", "may_touch": [{"pair": ["v", "m"], "reason": "a gate in the conveyor opens"}]"#;
     assert_eq!(told("cart", r#""type": "conv", "pose": [3, -2, 0, 90]"#, allowed), [""; 0]);
+}
+
+#[test]
+fn on_an_open_track_a_vehicle_comes_from_the_first_place_to_the_last_one() {
+    let is_told = |x: f64| {
+        let machine = format!(r#""type": "conv", "pose": [{x}, -2, 0, 90]"#);
+        !told("tram", &machine, "").is_empty()
+    };
+    // Half of the belt and half of the vehicle are 0.5 m.
+    assert_eq!([1.4, 1.6, 4.4, 4.6].map(is_told), [false, true, true, false]);
+}
+
+#[test]
+fn each_of_two_vehicles_on_the_same_way_is_looked_at() {
+    let machine =
+        r#""type": "conv", "pose": [3, -2, 0, 90]}, {"name": "w", "type": "cart", "pose": [0, 0, 0]"#;
+    let told_of = |allowed: &[[&str; 2]]| {
+        let pair = |[a, b]: &[&str; 2]| format!(r#"{{"pair": ["{a}", "{b}"], "reason": "a gate opens"}}"#);
+        // Both begin at the same place.
+        let pairs: Vec<String> = [["v", "w"]].iter().chain(allowed).map(pair).collect();
+        told("cart", machine, &format!(r#", "may_touch": [{}]"#, pairs.join(", ")))
+    };
+    let through = |vehicle: &str| [format!("`hull` of {vehicle} drives through the lane `belt` of m")];
+    assert_eq!(told_of(&[]), through("v"));
+    assert_eq!(told_of(&[["v", "m"]]), through("w"));
+    assert_eq!(told_of(&[["v", "m"], ["w", "m"]]), [""; 0]);
 }

@@ -3,7 +3,7 @@
 use autogen::executor::Executor;
 use autogen_tests::{Texts, side_by_side};
 use runtime_sim::line::{IoDelay, Line};
-use runtime_sim::report::Report;
+use runtime_sim::report::{AlarmReport, Report};
 use runtime_sim::run::{Recorded, Stepping, record};
 
 /// A machine of this device and automaton, run for 60 s.
@@ -509,6 +509,31 @@ fn a_command_from_before_a_loss_of_power_is_not_finished() {
     let carried = run_of(belt, "run();");
     let surfaces = &carried.history.machines[0].surfaces[0].changes;
     assert_eq!(surfaces.last().map(|(_, speed)| *speed), Some(0.0), "{surfaces:?}");
+}
+
+/// The button is pressed for 0.5 s at each of these seconds; power is lost at 3 s and at 9 s for 2 s.
+fn alarms_of_presses(at_s: &[u32]) -> Vec<AlarmReport> {
+    let press = |at_s| format!(r#"{{"robot": "it", "part": "start", "at_s": {at_s}, "for_s": 0.5}}"#);
+    let presses = at_s.iter().map(press).collect::<Vec<_>>().join(", ");
+    let offs = r#"[{"at_s": 3, "for_s": 2}, {"at_s": 9, "for_s": 2}]"#;
+    let scenario = format!(r#""operator": [{presses}], "faults": {{"power_offs": {offs}}}"#);
+    let device = "part start = button {}; in pressed: bool = start.on;";
+    let automaton = r#"invariant not pressed else warn "do not press";
+        initial state Idle { when false -> Idle {} }"#;
+    run(&line(device, automaton, &scenario), |_| {}).report.alarms
+}
+
+#[test]
+fn alarms_of_a_run_are_those_of_all_its_power_ups() {
+    let alarm = |count, first_s, last_s, acknowledged| {
+        let machine = "it".into();
+        AlarmReport { machine, code: 1, count, first_s, last_s, active: false, acknowledged }
+    };
+    assert_eq!(alarms_of_presses(&[1]), [alarm(1, 1.0, 1.0, true)]);
+    assert_eq!(alarms_of_presses(&[6]), [alarm(1, 6.0, 6.0, true)]);
+    assert_eq!(alarms_of_presses(&[12]), [alarm(1, 12.0, 12.0, false)]);
+    assert_eq!(alarms_of_presses(&[1, 6, 7, 12]), [alarm(4, 1.0, 12.0, false)]);
+    assert_eq!(alarms_of_presses(&[]), []);
 }
 
 /// An item on a conveyor below the tool, which two grippers pick one after the other.

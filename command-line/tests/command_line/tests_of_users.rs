@@ -202,6 +202,38 @@ fn a_loss_of_power_has_the_same_times_on_all_engines() {
     assert_eq!((status(&output), at_45), (3, 2), "{}{}", said(&output), errors(&output));
 }
 
+/// A button that must not be pressed, and power is lost from 2 s to 3 s.
+fn alarms_of_presses(name: &str, at_s: &[u32], expected: &str) -> Output {
+    let spec = "device unit { part button = button {}; in pressed: bool = button.on; }
+        automaton Unit on unit {
+            invariant not pressed else warn \"do not press\";
+            initial state Idle { when false -> Idle {} }
+        }";
+    let robots = r#"{"name": "unit", "type": "unit", "pose": [0, 0, 0]}"#;
+    let press = |at_s| format!(r#"{{"robot": "unit", "part": "button", "at_s": {at_s}, "for_s": 0.3}}"#);
+    let presses = at_s.iter().map(press).collect::<Vec<_>>().join(", ");
+    let off = r#""faults": {"power_offs": [{"at_s": 2, "for_s": 1}]}"#;
+    let scenario = format!(r#"{{"time_limit_s": 8, "operator": [{presses}], {off}}}"#);
+    run_of(name, spec, robots, &scenario, expected)
+}
+
+#[test]
+fn alarms_from_before_a_loss_of_power_count_on_all_engines() {
+    for (name, at_s, expected) in [
+        ("test_alarm_before", &[1][..], "expect alarm \"do not press\" of unit; expect alarms = 1;"),
+        ("test_alarm_again", &[1, 4, 6], "expect alarm \"do not press\" of unit; expect alarms = 3;"),
+    ] {
+        let output = alarms_of_presses(name, at_s, expected);
+        assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
+    }
+}
+
+#[test]
+fn a_test_that_misses_alarms_tells_their_number() {
+    let output = alarms_of_presses("test_no_alarm", &[], "expect alarms >= 1;");
+    assert!(said(&output).contains("+             alarms = 0\n"), "{}{}", said(&output), errors(&output));
+}
+
 /// A test may pass although its fault did not come: then it says so.
 #[test]
 fn a_fault_that_a_run_does_not_come_to_is_told() {

@@ -9,8 +9,9 @@ use crate::line::Line;
 use crate::machine::Machine;
 use crate::part::Primitive;
 use crate::part::lane::CentreLine;
-use crate::point::Point;
-use crate::solid::{Link, Shape};
+use crate::point::{Axis, Point};
+use crate::solid::{Link, Shape, Solid};
+use std::cell::OnceCell;
 
 /// A conveyor or a place, and the first vehicle that drives through it.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,28 +37,27 @@ const MOST_STEPS: f64 = 2000.0;
 /// One for each surface, in the order of the machines; none of what a cylinder or a positioner moves, of pairs that may
 /// touch, and of machines with a body that is hit too, because a run finds that contact.
 pub fn driven_through(line: &Line) -> Vec<DrivenThrough> {
-    let machines = || line.machines.iter().enumerate();
-    let vehicles: Vec<Vehicle> =
-        machines().filter_map(|(number, machine)| Vehicle::new(number, machine)).collect();
+    let Vehicles { ways, all } = Vehicles::of(line);
     let mut found = Vec::new();
-    for (number, machine) in machines().filter(|_| !vehicles.is_empty()) {
+    for (number, machine) in line.machines.iter().enumerate().filter(|_| !all.is_empty()) {
         let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::World);
         let pieces = solids.map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
         let bodies = Standing::new(pieces.map(|piece| piece.within(&Pose::IDENTITY)).collect());
-        let is_free = |vehicle: &Vehicle| {
-            let names = [machine, &line.machines[vehicle.machine]].map(|machine| machine.name.as_str());
-            !line.allows(names) && vehicle.meets(&bodies).is_none()
+        let may_touch = |vehicle: usize| {
+            line.allows([number, vehicle].map(|machine| line.machines[machine].name.as_str()))
         };
         for (part, of) in machine.parts.iter().enumerate() {
             let Some(surface) = surface(&of.primitive) else { continue };
-            let mut others = vehicles.iter().filter(|vehicle| vehicle.machine != number);
-            let through = others.find_map(|vehicle| {
-                let (at, body) = vehicle.meets(&surface)?;
-                let found =
-                    DrivenThrough { vehicle: vehicle.machine, body: body.into(), machine: number, part, at };
-                is_free(vehicle).then_some(found)
-            });
-            found.extend(through);
+            let met: Vec<OnceCell<Option<(Point, &str)>>> = vec![OnceCell::new(); ways.len()];
+            let meets = |way: usize| {
+                let through = || ways[way].meets(&surface).filter(|_| ways[way].meets(&bodies).is_none());
+                *met[way].get_or_init(through)
+            };
+            let mut others = all.iter().filter(|(vehicle, _)| *vehicle != number);
+            found.extend(others.find_map(|&(vehicle, way)| {
+                let (at, body) = meets(way).filter(|_| !may_touch(vehicle))?;
+                Some(DrivenThrough { vehicle, body: body.into(), machine: number, part, at })
+            }));
         }
     }
     found
@@ -86,14 +86,50 @@ impl Standing {
     }
 }
 
-struct Vehicle {
-    machine: usize,
+/// Vehicles with bodies, and the ways that they drive.
+struct Vehicles {
+    ways: Vec<Way>,
+    /// Number of the machine and of its way.
+    all: Vec<(usize, usize)>,
+}
+
+impl Vehicles {
+    fn of(line: &Line) -> Self {
+        let mut known: Vec<(Vec<Straight>, Vec<Solid>)> = Vec::new();
+        let mut all = Vec::new();
+        for (number, machine) in line.machines.iter().enumerate() {
+            let mut bodies = machine.solids();
+            bodies.retain(|solid| solid.link == Link::Route);
+            if bodies.is_empty() {
+                continue;
+            }
+            let driven = (straights(machine), bodies);
+            let way = known.iter().position(|known| *known == driven).unwrap_or(known.len());
+            if way == known.len() {
+                known.push(driven);
+            }
+            all.push((number, way));
+        }
+        let ways = known.into_iter().map(|(straights, solids)| Way::new(straights, solids));
+        Self { ways: ways.collect(), all }
+    }
+}
+
+/// What vehicles of the same bodies pass that drive on the same straights.
+struct Way {
     bodies: Vec<Piece>,
-    /// No point of a body is farther from its position, m.
+    /// No point of a body is farther from the position of the vehicle, m.
     reach: f64,
+    /// In the order in which their bounds begin along the axis.
     segments: Vec<Segment>,
+    axis: Axis,
+    /// No bounds of a segment are longer along the axis, m.
+    longest: f64,
     whole: BoundingBox,
 }
+
+/// The direction in which a vehicle looks, degrees, and both ends.
+type Straight = (f64, [Point; 2]);
 
 /// A straight piece on which a vehicle does not turn.
 struct Segment {
@@ -104,18 +140,20 @@ struct Segment {
     bounds: BoundingBox,
 }
 
-impl Vehicle {
-    /// None of a machine that is no vehicle, or without bodies.
-    fn new(number: usize, machine: &Machine) -> Option<Self> {
-        let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::Route);
-        let bodies = solids.map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
+impl Way {
+    fn new(straights: Vec<Straight>, solids: Vec<Solid>) -> Self {
+        let bodies = solids.into_iter().map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
         let bodies: Vec<Piece> = bodies.collect();
-        let reach =
-            bodies.iter().map(|body| body.ball().middle.length() + body.ball().radius).reduce(f64::max)?;
-        let segments: Vec<Segment> =
-            segments(machine).into_iter().map(|(yaw, ends)| segment(&bodies, yaw, ends)).collect();
+        let reach = bodies.iter().map(|body| body.ball().middle.length() + body.ball().radius);
+        let reach = reach.fold(0.0, f64::max);
+        let segments = straights.into_iter().map(|(yaw, ends)| segment(&bodies, yaw, ends));
+        let mut segments: Vec<Segment> = segments.collect();
         let whole = around(segments.iter().map(|segment| segment.bounds));
-        Some(Self { machine: number, bodies, reach, segments, whole })
+        let length = |bounds: &BoundingBox, axis| bounds.along(axis)[1] - bounds.along(axis)[0];
+        let axis = if length(&whole, Axis::X) >= length(&whole, Axis::Y) { Axis::X } else { Axis::Y };
+        segments.sort_by(|a, b| a.bounds.along(axis)[0].total_cmp(&b.bounds.along(axis)[0]));
+        let longest = segments.iter().map(|segment| length(&segment.bounds, axis)).fold(0.0, f64::max);
+        Self { bodies, reach, segments, axis, longest, whole }
     }
 
     /// Where the vehicle is when one of its bodies meets something that stands, and the name of the body.
@@ -123,12 +161,23 @@ impl Vehicle {
         if standing.pieces.is_empty() || self.whole.is_apart(&standing.bounds) {
             return None;
         }
-        let near = self.segments.iter().filter(|segment| !segment.bounds.is_apart(&standing.bounds));
-        near.flat_map(|segment| segment.near(standing.ball(), self.reach)).find_map(|frame| {
-            let pose = frame.pose();
-            let body = self.bodies.iter().find(|body| standing.meets(&body.within(&pose)))?;
-            Some((frame.position, body.name.as_str()))
+        let mut near = self.near(&standing.bounds);
+        near.find_map(|segment| {
+            segment.near(standing.ball(), self.reach).find_map(|frame| {
+                let pose = frame.pose();
+                let body = self.bodies.iter().find(|body| standing.meets(&body.within(&pose)))?;
+                Some((frame.position, body.name.as_str()))
+            })
         })
+    }
+
+    /// The segments that are not apart from this.
+    fn near(&self, bounds: &BoundingBox) -> impl Iterator<Item = &Segment> {
+        let (axis, [low, high]) = (self.axis, bounds.along(self.axis));
+        let begin = move |segment: &Segment| segment.bounds.along(axis)[0];
+        let first = self.segments.partition_point(|segment| begin(segment) < low - self.longest);
+        let until_end = self.segments[first..].iter().take_while(move |segment| begin(segment) <= high);
+        until_end.filter(|segment| !segment.bounds.is_apart(bounds))
     }
 }
 
@@ -148,11 +197,10 @@ impl Segment {
     }
 }
 
-/// Its segments: the direction in which it looks, and both ends.
-fn segments(machine: &Machine) -> Vec<(f64, [Point; 2])> {
+/// What a vehicle drives on.
+fn straights(machine: &Machine) -> Vec<Straight> {
     if let Some(track) = machine.track() {
-        let heading = |[from, to]: [Point; 2]| libm::atan2(to.y - from.y, to.x - from.x).to_degrees();
-        return track.sides().into_iter().map(|ends| (heading(ends), ends)).collect();
+        return track.driven();
     }
     let stops = machine.stops();
     let from_each = stops.iter().enumerate().map(|(number, from)| (from, &stops[number + 1..]));

@@ -151,7 +151,23 @@ impl Track {
         }
     }
 
-    /// Both ends of all that it may drive on.
+    /// What the vehicle drives on: the direction in which it looks, degrees, and both ends. Of an open track this is what lies
+    /// between the first and the last of its places and of where it begins.
+    pub fn driven(&self) -> Vec<(f64, [Point; 2])> {
+        match &self.guide {
+            Guide::Line { polyline, .. } if polyline.is_closed() => {
+                polyline.pieces(0.0, polyline.length()).collect()
+            }
+            Guide::Line { polyline, places, begins } => {
+                let first = places.iter().copied().fold(*begins, f64::min);
+                let last = places.iter().copied().fold(*begins, f64::max);
+                polyline.pieces(first, last).collect()
+            }
+            Guide::Network { network, .. } => network.edges.iter().map(|edge| network.driven(edge)).collect(),
+        }
+    }
+
+    /// Both ends of all sides of its guide.
     pub fn sides(&self) -> Vec<[Point; 2]> {
         match &self.guide {
             Guide::Line { polyline, .. } => polyline.sides().collect(),

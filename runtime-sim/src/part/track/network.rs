@@ -70,6 +70,13 @@ impl Network {
         Ok(Self { nodes, edges, away })
     }
 
+    /// The direction of an edge, degrees, and both ends.
+    pub fn driven(&self, edge: &Edge) -> (f64, [Point; 2]) {
+        let ends = [edge.from, edge.to].map(|node| self.nodes[node]);
+        let ahead = ends[1] - ends[0];
+        (libm::atan2(ahead.y, ahead.x).to_degrees(), ends)
+    }
+
     /// The first node that no way leads to from this one, or that no way leads back from.
     pub fn cut_off(&self, begin: usize) -> Option<String> {
         let mut back = self.clone();

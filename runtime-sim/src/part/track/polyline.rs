@@ -152,6 +152,14 @@ impl Polyline {
         self.sides.iter().map(|side| [side.from.position, side.from.position + side.ahead.scaled(side.length)])
     }
 
+    /// What lies on each side from one place of the track to a later one: the direction of the side, degrees, and both ends.
+    pub fn pieces(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, [Point; 2])> {
+        self.sides[self.side(from)..=self.side(to)].iter().map(move |side| {
+            let along = [from, to].map(|place| (place - side.place).clamp(0.0, side.length));
+            (side.from.yaw, along.map(|along| side.from.position + side.ahead.scaled(along)))
+        })
+    }
+
     /// The next corner behind a place, and by how much the track turns there, degrees.
     fn next_corner(&self, place: f64) -> Option<(f64, f64)> {
         let here = self.on_track(place);
@@ -220,6 +228,21 @@ mod tests {
         let corners: Vec<f64> = polyline.corners_between(3.0, 17.0).map(|(place, _)| place).collect();
         assert_eq!(corners, [4.0, 8.0, 12.0, 16.0]);
         assert_eq!(polyline.corners_between(4.0, 7.9).count(), 0);
+    }
+
+    #[test]
+    fn pieces_end_at_their_places() {
+        let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]].map(|[x, y]| Point::new(x, y, 0.0));
+        let polyline = Polyline::new(&corners, false).expect("a track");
+        let pieces = |from, to| -> Vec<(f64, [[f64; 2]; 2])> {
+            let flat = |(yaw, ends): (f64, [Point; 2])| (yaw, ends.map(|end| [end.x, end.y]));
+            polyline.pieces(from, to).map(flat).collect()
+        };
+        assert_eq!(pieces(1.0, 3.0), [(0.0, [[1.0, 0.0], [3.0, 0.0]])]);
+        assert_eq!(pieces(3.0, 5.0), [(0.0, [[3.0, 0.0], [4.0, 0.0]]), (90.0, [[4.0, 0.0], [4.0, 1.0]])]);
+        // At a corner it looks along the second side.
+        assert_eq!(pieces(4.0, 4.0), [(90.0, [[4.0, 0.0]; 2])]);
+        assert_eq!(pieces(8.0, 8.0), [(90.0, [[4.0, 4.0]; 2])]);
     }
 
     #[test]
