@@ -380,6 +380,29 @@ fn recorded_paths_are_where_the_items_are() {
 }
 
 /// A line of these automata and devices.
+/// Two half circles of 1 mm that lead onto one another: an item would go round a million times in each scan.
+#[test]
+fn an_item_that_passes_on_too_often_in_a_scan_ends_the_run() {
+    let device = "device half {
+            part belt = lane { from: origin * frame(0, 0, 0.8, 0); length: 0.001; turn: 180; width: 0.2; speed: 1000000; };
+            part feed = source { on: belt; inset: 0; };
+            out run: bool = belt.run stop false;
+        }
+        automaton Half on half { initial -> Runs { run := true; } state Runs { when false -> Runs {} } }";
+    let robots = r#"{"name": "first", "type": "half", "pose": [0, 0, 0]},
+        {"name": "second", "type": "half", "at": "first.belt"}"#;
+    let scenario = r#"{
+        "kinds": [{"name": "bead", "height": 0.001, "size": [0.001, 0.001]}], "time_limit_s": 10,
+        "supply": {"items": {"first": ["bead"], "second": []}, "times": 1, "every_s": 0.1}
+    }"#;
+    let report =
+        run(&line(device, robots, scenario)).expect("a line").expect("the same however it is stepped");
+    assert_eq!(
+        report.reason,
+        "interlock of first: items on conveyors go on at more than 100000 times in a scan"
+    );
+}
+
 fn line(device: &str, robots: &str, scenario: &str) -> Texts {
     Texts {
         layout: format!(r#"{{"robots": [{robots}]}}"#),
