@@ -76,7 +76,7 @@ fn a_vehicle_through_a_surface_is_told() {
     let cases = [
         ("cart", r#""type": "conv", "pose": [3, -2, 0, 90]"#, "lane `belt`"),
         ("shuttle", r#""type": "conv", "pose": [3, -2, 0, 90]"#, "lane `belt`"),
-        // A quarter of a circle that begins beside the way and ends across it.
+        // A quarter of a circle that begins beside the track and ends across it.
         ("cart", r#""type": "conv", "pose": [2, -1, 0, 60], "turn": 60"#, "lane `belt`"),
         ("cart", r#""type": "table", "pose": [3, 0.7, 0]"#, "place `top`"),
     ];
@@ -87,7 +87,7 @@ fn a_vehicle_through_a_surface_is_told() {
 }
 
 #[test]
-fn what_is_not_in_the_way_or_has_a_body_is_not_told() {
+fn what_is_not_on_the_path_or_has_a_body_is_not_told() {
     let cases = [
         // Over it, under it, beside it, beyond its end.
         ("cart", r#""type": "conv", "pose": [3, -2, 0, 90], "height": 0.95"#),
@@ -117,7 +117,7 @@ fn on_an_open_track_a_vehicle_comes_from_the_first_place_to_the_last_one() {
 }
 
 #[test]
-fn each_of_two_vehicles_on_the_same_way_is_looked_at() {
+fn each_of_two_vehicles_on_the_same_track_is_looked_at() {
     let machine =
         r#""type": "conv", "pose": [3, -2, 0, 90]}, {"name": "w", "type": "cart", "pose": [0, 0, 0]"#;
     let told_of = |allowed: &[[&str; 2]]| {

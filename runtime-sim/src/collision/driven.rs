@@ -37,7 +37,7 @@ const MOST_STEPS: f64 = 2000.0;
 /// One for each surface, in the order of the machines; none of what a cylinder or a positioner moves, of pairs that may
 /// touch, and of machines with a body that is hit too, because a run finds that contact.
 pub fn driven_through(line: &Line) -> Vec<DrivenThrough> {
-    let Vehicles { ways, all } = Vehicles::of(line);
+    let Vehicles { envelopes, all } = Vehicles::of(line);
     let mut found = Vec::new();
     for (number, machine) in line.machines.iter().enumerate().filter(|_| !all.is_empty()) {
         let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::World);
@@ -48,14 +48,15 @@ pub fn driven_through(line: &Line) -> Vec<DrivenThrough> {
         };
         for (part, of) in machine.parts.iter().enumerate() {
             let Some(surface) = surface(&of.primitive) else { continue };
-            let met: Vec<OnceCell<Option<(Point, &str)>>> = vec![OnceCell::new(); ways.len()];
-            let meets = |way: usize| {
-                let through = || ways[way].meets(&surface).filter(|_| ways[way].meets(&bodies).is_none());
-                *met[way].get_or_init(through)
+            let met: Vec<OnceCell<Option<(Point, &str)>>> = vec![OnceCell::new(); envelopes.len()];
+            let meets = |envelope: usize| {
+                let swept = &envelopes[envelope];
+                let through = || swept.meets(&surface).filter(|_| swept.meets(&bodies).is_none());
+                *met[envelope].get_or_init(through)
             };
             let mut others = all.iter().filter(|(vehicle, _)| *vehicle != number);
-            found.extend(others.find_map(|&(vehicle, way)| {
-                let (at, body) = meets(way).filter(|_| !may_touch(vehicle))?;
+            found.extend(others.find_map(|&(vehicle, envelope)| {
+                let (at, body) = meets(envelope).filter(|_| !may_touch(vehicle))?;
                 Some(DrivenThrough { vehicle, body: body.into(), machine: number, part, at })
             }));
         }
@@ -86,10 +87,10 @@ impl Standing {
     }
 }
 
-/// Vehicles with bodies, and the ways that they drive.
+/// Vehicles with bodies, and what they sweep.
 struct Vehicles {
-    ways: Vec<Way>,
-    /// Number of the machine and of its way.
+    envelopes: Vec<Envelope>,
+    /// Number of the machine and of its envelope.
     all: Vec<(usize, usize)>,
 }
 
@@ -104,19 +105,19 @@ impl Vehicles {
                 continue;
             }
             let driven = (straights(machine), bodies);
-            let way = known.iter().position(|known| *known == driven).unwrap_or(known.len());
-            if way == known.len() {
+            let envelope = known.iter().position(|known| *known == driven).unwrap_or(known.len());
+            if envelope == known.len() {
                 known.push(driven);
             }
-            all.push((number, way));
+            all.push((number, envelope));
         }
-        let ways = known.into_iter().map(|(straights, solids)| Way::new(straights, solids));
-        Self { ways: ways.collect(), all }
+        let envelopes = known.into_iter().map(|(straights, solids)| Envelope::new(straights, solids));
+        Self { envelopes: envelopes.collect(), all }
     }
 }
 
 /// What vehicles of the same bodies pass that drive on the same straights.
-struct Way {
+struct Envelope {
     bodies: Vec<Piece>,
     /// No point of a body is farther from the position of the vehicle, m.
     reach: f64,
@@ -140,7 +141,7 @@ struct Segment {
     bounds: BoundingBox,
 }
 
-impl Way {
+impl Envelope {
     fn new(straights: Vec<Straight>, solids: Vec<Solid>) -> Self {
         let bodies = solids.into_iter().map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
         let bodies: Vec<Piece> = bodies.collect();
