@@ -379,7 +379,6 @@ fn recorded_paths_are_where_the_items_are() {
     }
 }
 
-/// A line of these automata and devices.
 /// Two half circles of 1 mm that lead onto one another: an item would go round a million times in each scan.
 #[test]
 fn an_item_that_passes_on_too_often_in_a_scan_ends_the_run() {
@@ -399,10 +398,11 @@ fn an_item_that_passes_on_too_often_in_a_scan_ends_the_run() {
         run(&line(device, robots, scenario)).expect("a line").expect("the same however it is stepped");
     assert_eq!(
         report.reason,
-        "interlock of first: items on conveyors go on at more than 100000 times in a scan"
+        "interlock of first: items on the conveyors of the line go on at more than 100000 times in a scan"
     );
 }
 
+/// A line of these automata and devices.
 fn line(device: &str, robots: &str, scenario: &str) -> Texts {
     Texts {
         layout: format!(r#"{{"robots": [{robots}]}}"#),

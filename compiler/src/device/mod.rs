@@ -6,6 +6,7 @@
 mod check;
 mod evaluate;
 mod head;
+mod operation;
 pub mod panel;
 mod placed;
 mod program;

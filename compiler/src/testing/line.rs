@@ -217,7 +217,7 @@ fn figure_of(report: &Report, figure: Figure) -> Option<f64> {
         Figure::SecondsPerOrder => report.seconds_per_order,
         Figure::Simulated => Some(report.simulated_s),
         Figure::Contacts => Some(report.collisions.len() as f64),
-        Figure::Alarms => Some(f64::from(report.alarms.iter().map(|alarm| alarm.count).sum::<u32>())),
+        Figure::Alarms => Some(report.alarms.iter().map(|alarm| u64::from(alarm.count)).sum::<u64>() as f64),
     }
 }
 

@@ -169,8 +169,9 @@ impl Conveying {
             times += 1;
             if times > MOST_AT_ONCE {
                 if let Some(track) = self.tracks.first() {
-                    let reason =
-                        format!("items on conveyors go on at more than {MOST_AT_ONCE} times in a scan");
+                    let reason = format!(
+                        "items on the conveyors of the line go on at more than {MOST_AT_ONCE} times in a scan"
+                    );
                     among.items.crash(track.machine, reason);
                 }
                 return None;

@@ -69,5 +69,5 @@ impl<'a> Alarms<'a> {
 
 /// An alarm that was raised before a loss of power and again after it.
 fn in_sequence(earlier: AlarmReport, later: AlarmReport) -> AlarmReport {
-    AlarmReport { count: earlier.count + later.count, first_s: earlier.first_s, ..later }
+    AlarmReport { count: earlier.count.saturating_add(later.count), first_s: earlier.first_s, ..later }
 }
