@@ -6,7 +6,7 @@ use autogen::source::Sources;
 use runtime_sim::report::Report;
 use serde_json::{Value, json};
 
-/// Adds to the fault and to the alarms of a report, as JSON, what and where they are in the text: the simulator knows
+/// Adds to the faults and to the alarms of a report, as JSON, what and where they are in the text: the simulator knows
 /// their numbers only.
 pub fn name(results: &mut Value, report: &Report, system: &System, sources: &Sources) {
     results["reason"] = json!(reason_of_run(report, system, sources));
@@ -15,6 +15,11 @@ pub fn name(results: &mut Value, report: &Report, system: &System, sources: &Sou
         alarm["text"] = json!(site.text);
         alarm["place"] = json!(place(sources, site));
         alarm["stops"] = json!(site.severity == Severity::Machine);
+    }
+    for (fault, of_report) in results["faults"].as_array_mut().into_iter().flatten().zip(&report.faults) {
+        let Some(site) = site(system, of_report.code) else { continue };
+        fault["text"] = json!(site.text);
+        fault["place"] = json!(place(sources, site));
     }
     if let Some((code, robot)) = &report.fault
         && let Some(site) = site(system, *code)

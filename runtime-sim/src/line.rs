@@ -206,6 +206,14 @@ impl Scenario {
         self.presses.iter().any(|press| press.button == button && press.during.holds(scan))
     }
 
+    /// Scans in which somebody begins to press the button `reset` of the line.
+    pub fn resets(&self) -> impl Iterator<Item = u64> {
+        self.presses
+            .iter()
+            .filter(|press| press.button == LineButton::Reset)
+            .map(|press| press.during.at_scan)
+    }
+
     /// Scans in which a button of the line is pressed or released.
     pub fn press_changes(&self) -> impl Iterator<Item = u64> {
         self.presses.iter().flat_map(|press| press.during.changes())

@@ -23,6 +23,8 @@ pub struct Report {
     pub notes: Vec<String>,
     /// Code and machine of the fault that ended the run.
     pub fault: Option<(i32, String)>,
+    /// The faults that did not end it, in the order of their times.
+    pub faults: Vec<FaultReport>,
     pub scan_ms: u32,
     pub scans: u64,
     pub simulated_s: f64,
@@ -57,6 +59,18 @@ pub struct OrderTimes {
     pub station: String,
     pub opened_s: Option<f64>,
     pub made_s: Option<f64>,
+}
+
+/// A fault after which the run went on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FaultReport {
+    pub code: i32,
+    pub machine: String,
+    /// In which its automaton was; empty if it had none.
+    pub state: String,
+    pub at_s: f64,
+    /// `None` if it is there at the end.
+    pub cleared_s: Option<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -109,6 +123,7 @@ pub(crate) struct Outcome {
     pub trace_hash: u64,
     pub collisions: Vec<Contact>,
     pub alarms: Vec<AlarmReport>,
+    pub faults: Vec<FaultReport>,
 }
 
 fn names(line: &Line, machines: &[usize]) -> String {
@@ -152,6 +167,7 @@ impl Report {
             fault: outcome.fault.map(|(code, machine)| {
                 (code, machine.map_or_else(String::new, |machine| line.machines[machine].name.clone()))
             }),
+            faults: outcome.faults,
             alarms: outcome.alarms,
             scan_ms: line.scan_ms,
             scans: outcome.scans,
@@ -201,6 +217,15 @@ impl Report {
                 json.put_object("fault", |json| {
                     json.put_int("code", u64::from(code.unsigned_abs()));
                     json.put_text("robot", robot);
+                });
+            }
+            if !self.faults.is_empty() {
+                json.put_list("faults", &self.faults, |json, fault| {
+                    json.put_int("code", u64::from(fault.code.unsigned_abs()));
+                    json.put_text("robot", &fault.machine);
+                    json.put_text("state", &fault.state);
+                    json.put_real("at_s", Some(fault.at_s));
+                    json.put_real("cleared_s", fault.cleared_s);
                 });
             }
             json.put_real("simulated_s", Some(self.simulated_s));

@@ -4,6 +4,7 @@ mod accounts;
 mod agenda;
 mod alarms;
 mod changes;
+mod faults;
 mod order_times;
 mod power;
 mod progress;
@@ -26,6 +27,7 @@ use accounts::Accounts;
 use agenda::Agenda;
 use alarms::Alarms;
 use changes::Changes;
+use faults::Faults;
 pub(crate) use order_times::OrderTimes;
 use power::Unpowered;
 use progress::Progress;
@@ -46,6 +48,9 @@ pub struct Seen<'a> {
     pub plant: &'a Plant,
 }
 
+/// Why a run ends that has reached its goal at its time limit, but for a fault.
+const TIME_IN_FAULT: &str = "time limit: the line is in a fault";
+
 /// Which scans a run executes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stepping {
@@ -56,7 +61,8 @@ pub enum Stepping {
     Checked,
 }
 
-/// Runs the line until all orders are made, a fault is reported, time is up or nothing changes any more.
+/// Runs the line until all orders are made, a fault is reported that nothing clears later, time is up or nothing changes
+/// any more.
 /// In scan n the inputs are latched, the controllers stepped and their outputs published, which act from
 /// then on; then the plant continues to scan n+1. The observer is shown the scans that are executed. An error means that
 /// the line cannot be run at all.
@@ -147,6 +153,7 @@ fn simulate(
     let mut stands_since = Some(0);
     let mut trace = Vec::new();
     let mut alarms = Alarms::new(line);
+    let mut faults = Faults::new(line);
     let mut progress = Progress::new(line);
     let mut conservation = Conservation::new(plant.items());
     let mut order_times = vec![OrderTimes::default(); line.scenario.orders.len()];
@@ -156,8 +163,7 @@ fn simulate(
     // In `Checked`: before this scan nothing happens.
     let mut quiet_until = 0;
 
-    let mut fault = None;
-    let (finished, reason) = loop {
+    let (finished, reason, fault) = loop {
         let arrived = bus.exchange(scan, plant.images(), |machine| plant.moves(machine), &mut inputs);
         let system = operator.inputs(scan, &line.scenario);
         let is_powered = line.scenario.is_powered(scan);
@@ -192,7 +198,9 @@ fn simulate(
                 return Err(format!("something happens in scan {scan}, which would be left out"));
             }
             agenda.step(scan, system, &inputs, answer, acted);
+            faults.note(scan, answer, &states);
         }
+        let fault = faults.last(scan);
         let seen = Seen {
             scan,
             system,
@@ -224,12 +232,14 @@ fn simulate(
         }
         let is_alive = plant.is_busy()
             || operator.is_busy(scan + 1, &line.scenario)
-            || agenda.is_timed(scan, &states, &changes);
+            || agenda.is_timed(scan, &states, &changes)
+            || faults.is_present();
         if is_alive {
             progress.is_alive(scan);
         }
         let mut next = scan + 1;
         let looks_ahead = match stepping {
+            _ if fault.is_some() => false,
             Stepping::Events => true,
             Stepping::EveryScan => false,
             Stepping::Checked => scan >= quiet_until,
@@ -287,17 +297,18 @@ fn simulate(
         // Those of this round are read in the next one too.
         plant.forget_events(read);
         read = plant.items().log().count();
-        if answer.fault {
-            let machine =
-                usize::try_from(answer.fault_robot).ok().filter(|&robot| robot < line.machines.len());
-            fault = Some((answer.fault_code, machine));
-            break (false, fault_text(line, answer.fault_code, machine));
+        if let Some((code, machine)) = fault {
+            break (false, fault_text(line, code, machine), fault);
         }
         if let Some(reason) = collision {
-            break (false, reason);
+            break (false, reason, None);
         }
-        if let Some(end) = progress.end(line, &plant, scan) {
-            break end;
+        match progress.end(line, &plant, scan) {
+            // The goal does not count while the line is in a fault.
+            Some((true, _)) if faults.is_present() && scan < progress.limit() => {}
+            Some((true, _)) if faults.is_present() => break (false, TIME_IN_FAULT.into(), None),
+            Some((finished, reason)) => break (finished, reason, None),
+            None => {}
         }
     };
     lose_power(line, controllers, &agenda, scan);
@@ -308,7 +319,8 @@ fn simulate(
     let outcome = Outcome {
         finished,
         reason,
-        stands_since: stands_since.filter(|_| fault.is_none() && operator.has_started(scan, &line.scenario)),
+        stands_since: stands_since
+            .filter(|_| fault.is_none() && !answer.fault && operator.has_started(scan, &line.scenario)),
         fault,
         scans: scan,
         accounts: accounts.until(scan),
@@ -317,6 +329,7 @@ fn simulate(
         trace_hash: changes.hash(),
         collisions: check.into_contacts(),
         alarms: alarms.until_end(&trace),
+        faults: faults.until_end(fault),
     };
     let recorded = recorders.map(|recorders| Recordings {
         paths: recorders.paths.finish(&plant),

@@ -633,12 +633,12 @@ fn what_a_run_does_not_come_to_is_told() {
             "not reached: press of `reset` at 100.00 s, as the run ended at 60.00 s; give an earlier time",
         ]
     );
-    // An earlier time would not help: only a reset after the fault has an effect.
+    // An earlier time would not help: the line has to be reset before it is started.
     let guarded = format!("{automaton} invariant not pressed;");
     let scenario = r#""operator": [{"robot": "it", "part": "key", "at_s": 2, "for_s": 1},
-        {"part": "reset", "at_s": 9, "for_s": 0.5}]"#;
+        {"part": "start", "at_s": 9, "for_s": 0.5}]"#;
     let notes = run(&line(device, &guarded, scenario), |_| {}).report.notes;
-    assert_eq!(notes, ["not reached: press of `reset` at 9.00 s, as the run ended in the fault at 2.01 s"]);
+    assert_eq!(notes, ["not reached: press of `start` at 9.00 s, as the run ended in the fault at 2.01 s"]);
     let faults = r#""slow": [{"robot": "mill", "part": "cycle", "cycle": 9, "longer_s": 1}],
         "slips": [{"robot": "arm", "pick": 1, "after_s": 900}, {"robot": "arm", "pick": 50, "after_s": 1}]"#;
     assert_eq!(
@@ -669,4 +669,100 @@ fn a_line_that_stands_for_want_of_an_edge_is_told() {
     // The pause lasts to the end of the run, and to the last scan before it.
     assert_eq!(notes(r#""at_s": 0.5, "for_s": 1"#, "58.99"), Vec::<String>::new());
     assert_eq!(notes(r#""at_s": 0.5"#, "59.5"), Vec::<String>::new());
+}
+
+/// The bar of [`BAR`], out at 1020 ms, must not be out while the key is pressed: the key is pressed from 5 s to 6 s.
+fn guarded(automaton: &str, scenario: &str) -> Report {
+    let device = format!("{BAR} part key = button {{}}; in pressed: bool = key.on;");
+    let key = r#""operator": [{"robot": "it", "part": "key", "at_s": 5, "for_s": 1}"#;
+    let automaton = format!("{automaton} invariant not pressed;");
+    run(&line(&device, &automaton, &scenario.replace("OPERATOR", key)), |_| {}).report
+}
+
+#[test]
+fn a_run_goes_on_if_its_fault_is_reset() {
+    let faults = |report: &Report| -> Vec<(i32, String, f64, Option<f64>)> {
+        let faults = report.faults.iter();
+        faults.map(|fault| (fault.code, fault.state.clone(), fault.at_s, fault.cleared_s)).collect()
+    };
+    let opened = || "Opened".to_string();
+    let reset = |at_s: f64| format!(r#"OPERATOR, {{"part": "reset", "at_s": {at_s}, "for_s": 0.2}}]"#);
+
+    let never = guarded(OPENS, "OPERATOR]");
+    assert_eq!((never.finished, never.fault, never.scans), (false, Some((1, "it".into())), 501));
+    assert_eq!(never.faults, []);
+
+    // No reset comes after it.
+    let early = guarded(OPENS, &reset(4.0));
+    assert_eq!((early.fault, early.scans), (Some((1, "it".into())), 501));
+
+    // It is cleared, but the line is not started: it stands.
+    let cleared = guarded(OPENS, &reset(8.0));
+    assert_eq!((cleared.finished, &cleared.fault, cleared.simulated_s), (true, &None, 60.0));
+    assert_eq!(faults(&cleared), [(1, opened(), 5.0, Some(8.0))]);
+    assert!(cleared.notes[0].starts_with("the line stands since 5.00 s"), "{:?}", cleared.notes);
+    assert_eq!(cleared.machines[0].account.stopped, 5_500 + 2);
+
+    // The cause is still there when the line is started, and nobody resets it again.
+    let too_early = reset(5.5).replace(']', r#", {"part": "start", "at_s": 5.8, "for_s": 0.1}]"#);
+    let again = guarded(OPENS, &too_early);
+    assert_eq!((&again.fault, again.scans), (&Some((1, "it".into())), 581));
+    assert_eq!(faults(&again), [(1, opened(), 5.0, Some(5.5))]);
+
+    let recovers = reset(8.0).replace(']', r#", {"part": "start", "at_s": 9, "for_s": 0.1}]"#);
+    let recovered = guarded(OPENS, &recovers);
+    assert_eq!((recovered.finished, recovered.notes.len()), (true, 0));
+    assert_eq!(recovered.machines[0].account.stopped, 400 + 2);
+}
+
+#[test]
+fn a_run_whose_fault_would_be_cleared_after_its_end_has_not_reached_its_goal() {
+    let late = guarded(OPENS, r#"OPERATOR, {"part": "reset", "at_s": 70, "for_s": 0.2}]"#);
+    assert_eq!((late.finished, late.simulated_s), (false, 60.0));
+    assert_eq!(late.reason, "time limit: the line is in a fault");
+    let [fault] = &late.faults[..] else { panic!("{:?}", late.faults) };
+    assert_eq!((fault.at_s, fault.cleared_s), (5.0, None));
+}
+
+#[test]
+fn a_loss_of_power_clears_a_fault_that_is_not_retained() {
+    let power_off = r#"OPERATOR], "faults": {"power_offs": [{"at_s": 10, "for_s": 2}]}"#;
+    let cleared = guarded(OPENS, power_off);
+    assert_eq!((cleared.finished, cleared.fault), (true, None));
+    assert_eq!((cleared.faults[0].at_s, cleared.faults[0].cleared_s), (5.0, Some(12.0)));
+    let retained = guarded(&format!("retain all; {OPENS}"), power_off);
+    assert_eq!((retained.finished, retained.fault), (false, Some((1, "it".into()))));
+    assert_eq!((retained.scans, retained.faults), (1_201, vec![]));
+}
+
+/// A belt that keeps running in a fault: a goal that is reached meanwhile counts once the fault is cleared.
+#[test]
+fn no_goal_is_reached_in_a_fault() {
+    let device =
+        "part belt = lane { from: origin * frame(0, 0, 0.7, 0); length: 2.0; width: 0.4; speed: 0.5; };
+        part entry = source { on: belt; inset: 0.2; };
+        part end = sink { of: belt; inset: 0; };
+        part key = button {};
+        in pressed: bool = key.on;
+        out run: bool = belt.run;";
+    let automaton = "initial -> Running { run := true; } final state Running; invariant not pressed;";
+    let report = |reset: &str| {
+        let scenario = format!(
+            r#""kinds": [{{"name": "box", "height": 0.2, "size": [0.3, 0.3]}}],
+            "supply": {{"items": ["box", "box"], "every_s": 3}}, "goal": {{"it.end": {{"box": 2}}}},
+            "operator": [{{"robot": "it", "part": "key", "at_s": 5, "for_s": 1}}{reset}]"#
+        );
+        run(&line(device, automaton, &scenario), |_| {}).report
+    };
+    let ended = report("");
+    assert_eq!((ended.finished, ended.scans, ended.collected), (false, 501, Some([0, 2])));
+    let cleared = report(r#", {"part": "reset", "at_s": 30, "for_s": 0.2}"#);
+    assert_eq!(
+        (cleared.finished, cleared.reason.as_str(), cleared.scans),
+        (true, "all items collected", 3_001)
+    );
+    assert_eq!((cleared.faults[0].at_s, cleared.faults[0].cleared_s), (5.0, Some(30.0)));
+    let late = report(r#", {"part": "reset", "at_s": 61, "for_s": 0.2}"#);
+    assert_eq!((late.finished, late.collected), (false, Some([2, 2])));
+    assert_eq!(late.reason, "time limit: the line is in a fault");
 }

@@ -234,6 +234,34 @@ fn a_test_that_misses_alarms_tells_their_number() {
     assert!(said(&output).contains("+             alarms = 0\n"), "{}{}", said(&output), errors(&output));
 }
 
+/// A button that must not be pressed is pressed at 1 s; the line is reset at 3 s and started at 4 s.
+#[test]
+fn a_fault_that_is_reset_is_the_same_on_all_engines() {
+    let spec = "device unit { part button = button {}; in pressed: bool = button.on; }
+        automaton Unit on unit {
+            invariant not pressed else stop line \"do not press\";
+            initial state Waiting { when after 2 s -> Done {} }
+            final state Done;
+        }";
+    let robots = r#"{"name": "unit", "type": "unit", "pose": [0, 0, 0]}"#;
+    let scenario = r#"{"time_limit_s": 8, "operator": [
+        {"robot": "unit", "part": "button", "at_s": 1, "for_s": 0.5},
+        {"part": "reset", "at_s": 3, "for_s": 0.2}, {"part": "start", "at_s": 4, "for_s": 0.2}]}"#;
+    let expected = "expect finished; expect fault \"do not press\" of unit; expect faults = 1; expect unit in Done before 6.05 s;";
+    let output = run_of("test_fault_reset", spec, robots, scenario, expected);
+    assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
+    let output = run_of(
+        "test_fault_reset_early",
+        spec,
+        robots,
+        scenario,
+        "expect unit in Done before 5.9 s; expect faults = 0;",
+    );
+    for told in ["+             at 5.99 s\n", "+             faults = 1\n"] {
+        assert_eq!(said(&output).matches(told).count(), 2, "{}{}", said(&output), errors(&output));
+    }
+}
+
 /// A test may pass although its fault did not come: then it says so.
 #[test]
 fn a_fault_that_a_run_does_not_come_to_is_told() {

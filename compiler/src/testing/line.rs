@@ -3,9 +3,9 @@
 use super::value;
 use super::{Comparison, Expect, Failure, Figure, What};
 use crate::diagnostic::Diagnostic;
-use crate::fault::reason_of_run;
+use crate::fault::{reason_of_run, site};
 use crate::ir::System;
-use crate::source::Sources;
+use crate::source::{Sources, Spanned};
 use runtime_sim::report::Report;
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 use std::collections::BTreeMap;
@@ -165,50 +165,45 @@ fn check(
             })
         }
         What::Alarm { text, machine } => {
-            if let Some(machine) = machine {
-                value::instance(system, &machine.value, machine.span)?;
-            }
-            let text_of = |code: i32| {
-                usize::try_from(code - 1)
-                    .ok()
-                    .and_then(|code| system.model.faults.get(code))
-                    .map_or("", |site| &site.text)
-            };
-            let is_it = report.alarms.iter().any(|alarm| {
-                text.as_ref().is_none_or(|text| text_of(alarm.code).contains(text.as_str()))
-                    && machine.as_ref().is_none_or(|machine| machine.value == alarm.machine)
-            });
-            let of = machine.as_ref().map_or(String::new(), |machine| format!(" of {}", machine.value));
-            let wanted =
-                format!("alarm{of}{}", text.as_ref().map_or(String::new(), |text| format!(": {text}")));
-            let all: Vec<String> = report
-                .alarms
-                .iter()
-                .map(|a| format!("alarm of {}: {}", a.machine, text_of(a.code)))
-                .collect();
-            let found = if all.is_empty() { "no alarm".into() } else { all.join("; ") };
-            (!is_it).then(|| plain(wanted, found))
+            let all = report.alarms.iter().map(|alarm| (alarm.code, alarm.machine.as_str()));
+            let differs = differs(system, "alarm", (text, machine), all)?;
+            differs.map(|[expected, found]| plain(expected, found))
         }
         What::Fault { text, machine } => {
-            if let Some(machine) = machine {
-                value::instance(system, &machine.value, machine.span)?;
-            }
-            let site = report.fault.as_ref().and_then(|(code, robot)| {
-                let site = usize::try_from(*code - 1).ok().and_then(|code| system.model.faults.get(code))?;
-                Some((site.text.clone(), robot.clone()))
-            });
-            let is_it = site.as_ref().is_some_and(|(found, robot)| {
-                text.as_ref().is_none_or(|text| found.contains(text.as_str()))
-                    && machine.as_ref().is_none_or(|machine| machine.value == *robot)
-            });
-            let of = machine.as_ref().map_or(String::new(), |machine| format!(" of {}", machine.value));
-            let wanted =
-                format!("fault{of}{}", text.as_ref().map_or(String::new(), |text| format!(": {text}")));
-            let found = site.map_or("no fault".into(), |(text, robot)| format!("fault of {robot}: {text}"));
-            (!is_it).then(|| plain(wanted, found))
+            let earlier = report.faults.iter().map(|fault| (fault.code, fault.machine.as_str()));
+            let last = report.fault.iter().map(|(code, machine)| (*code, machine.as_str()));
+            let differs = differs(system, "fault", (text, machine), earlier.chain(last))?;
+            differs.map(|[expected, found]| plain(expected, found))
         }
     };
     Ok(found)
+}
+
+/// What was expected, and what was found instead, if none of these faults or alarms has this text in its own and is one of
+/// this machine.
+fn differs<'a>(
+    system: &System,
+    what: &str,
+    (text, machine): (&Option<String>, &Option<Spanned<String>>),
+    all: impl Iterator<Item = (i32, &'a str)>,
+) -> Result<Option<[String; 2]>, Box<Diagnostic>> {
+    if let Some(machine) = machine {
+        value::instance(system, &machine.value, machine.span)?;
+    }
+    let all: Vec<(&str, &str)> =
+        all.map(|(code, robot)| (site(system, code).map_or("", |site| &site.text), robot)).collect();
+    let is_it = |(found, robot): &(&str, &str)| {
+        text.as_ref().is_none_or(|text| found.contains(text.as_str()))
+            && machine.as_ref().is_none_or(|machine| machine.value == *robot)
+    };
+    if all.iter().any(is_it) {
+        return Ok(None);
+    }
+    let of = machine.as_ref().map_or(String::new(), |machine| format!(" of {}", machine.value));
+    let text = text.as_ref().map_or(String::new(), |text| format!(": {text}"));
+    let found: Vec<String> = all.iter().map(|(text, robot)| format!("{what} of {robot}: {text}")).collect();
+    let found = if found.is_empty() { format!("no {what}") } else { found.join("; ") };
+    Ok(Some([format!("{what}{of}{text}"), found]))
 }
 
 fn figure_of(report: &Report, figure: Figure) -> Option<f64> {
@@ -218,6 +213,7 @@ fn figure_of(report: &Report, figure: Figure) -> Option<f64> {
         Figure::Simulated => Some(report.simulated_s),
         Figure::Contacts => Some(report.collisions.len() as f64),
         Figure::Alarms => Some(report.alarms.iter().map(|alarm| u64::from(alarm.count)).sum::<u64>() as f64),
+        Figure::Faults => Some((report.faults.len() + usize::from(report.fault.is_some())) as f64),
     }
 }
 
@@ -228,6 +224,7 @@ fn name_of(figure: Figure) -> &'static str {
         Figure::Simulated => "simulated",
         Figure::Contacts => "contacts",
         Figure::Alarms => "alarms",
+        Figure::Faults => "faults",
     }
 }
 

@@ -160,6 +160,8 @@ pub enum Figure {
     Contacts,
     /// How often alarms were raised.
     Alarms,
+    /// The one that ended the run, and those before it.
+    Faults,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

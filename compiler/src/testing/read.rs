@@ -269,6 +269,7 @@ impl Reader {
             Some("simulated") => self.figure(Figure::Simulated)?,
             Some("contacts") => self.figure(Figure::Contacts)?,
             Some("alarms") => self.figure(Figure::Alarms)?,
+            Some("faults") => self.figure(Figure::Faults)?,
             _ => {
                 let machine = self.name("a figure or of a machine")?;
                 self.in_state()?;
@@ -301,7 +302,7 @@ impl Reader {
     fn in_state(&mut self) -> Option<()> {
         match self.maybe_word("in") {
             true => Some(()),
-            false => self.wrong("`in`", "write `expect MACHINE in STATE;`; figures are orders, seconds_per_order, simulated, contacts and alarms"),
+            false => self.wrong("`in`", "write `expect MACHINE in STATE;`; figures are orders, seconds_per_order, simulated, contacts, alarms and faults"),
         }
     }
 

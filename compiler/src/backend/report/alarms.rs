@@ -37,6 +37,8 @@ pub fn alarms(line: &Line, recorded: &Recorded, signals: &[Signal], results: &Va
             }
             Source::FaultCode => {
                 answers(word).for_each(|(scan, code)| put(scan, format!("fault {code}")));
+                let cleared = word.changes.iter().skip(1).filter(|(_, code)| *code == 0.0);
+                cleared.for_each(|(scan, _)| put(*scan, "the fault is cleared".into()));
             }
             _ => {}
         }
