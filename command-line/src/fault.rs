@@ -10,13 +10,13 @@ use serde_json::{Value, json};
 /// their numbers only.
 pub fn name(results: &mut Value, report: &Report, system: &System, sources: &Sources) {
     results["reason"] = json!(reason_of_run(report, system, sources));
-    for (alarm, of_report) in results["alarms"].as_array_mut().into_iter().flatten().zip(&report.alarms) {
+    for (alarm, of_report) in list(results, "alarms").zip(&report.alarms) {
         let Some(site) = site(system, of_report.code) else { continue };
         alarm["text"] = json!(site.text);
         alarm["place"] = json!(place(sources, site));
         alarm["stops"] = json!(site.severity == Severity::Machine);
     }
-    for (fault, of_report) in results["faults"].as_array_mut().into_iter().flatten().zip(&report.faults) {
+    for (fault, of_report) in list(results, "faults").zip(&report.faults) {
         let Some(site) = site(system, of_report.code) else { continue };
         fault["text"] = json!(site.text);
         fault["place"] = json!(place(sources, site));
@@ -28,4 +28,9 @@ pub fn name(results: &mut Value, report: &Report, system: &System, sources: &Sou
         results["fault"]["place"] = json!(place(sources, site));
         results["fault"]["state"] = json!(report.state(robot));
     }
+}
+
+/// The elements of a list that may not be there.
+fn list<'r>(results: &'r mut Value, key: &str) -> impl Iterator<Item = &'r mut Value> {
+    results.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten()
 }
