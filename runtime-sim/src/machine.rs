@@ -10,7 +10,7 @@ use crate::line::State;
 use crate::monitor::Monitor;
 use crate::part::axis::Axis;
 use crate::part::chain::Chain;
-use crate::part::lane::Lane;
+use crate::part::lane::{self, Lane};
 use crate::part::place::Place;
 use crate::part::process::Process;
 use crate::part::route::Route;
@@ -239,8 +239,7 @@ impl Machine {
     fn check_lanes(&self) -> Result<(), Misfit> {
         let wiring = &self.wiring;
         let drives = |part: usize| {
-            let is_driven =
-                |output: &Output| matches!(output.drives, Drives::Level { part: p, .. } if p == part);
+            let is_driven = |output: &Output| output.drives == Drives::Level { part, level: lane::RUN };
             wiring.outputs.iter().any(is_driven) && wiring.commands.iter().any(|c| c.part == part)
         };
         let lanes = self.parts.iter().enumerate();

@@ -231,7 +231,7 @@ fn simulate(
             recorders.history.look(&plant);
         }
         let is_alive = plant.is_busy()
-            || operator.is_busy(scan + 1, &line.scenario)
+            || operator.is_busy(scan, &line.scenario)
             || agenda.is_timed(scan, &states, &changes)
             || faults.is_present();
         if is_alive {

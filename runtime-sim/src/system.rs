@@ -64,7 +64,7 @@ impl Operator {
         ends.chain([scenario.start_scan]).chain(scenario.press_changes()).filter(|at| *at > scan).min()
     }
 
-    /// Something is still to come from here: a permit, or an edge of `start`.
+    /// Something is still to come from here after this scan: a permit, an edge of `start`, a button pressed or released.
     pub fn is_busy(&self, scan: u64, scenario: &Scenario) -> bool {
         let is_pressed_later = scenario.press_changes().any(|change| change > scan);
         !self.had_permit || self.owes_start || scan < scenario.start_scan || is_pressed_later

@@ -67,6 +67,105 @@ fn what_falls_on_a_conveyor_goes_on_with_it_at_once() {
     }
 }
 
+/// A belt of full speed 0.4 m/s whose box appears at 2.02 s, 0.2 m from its beginning. `rate` is set by these transitions
+/// after this.
+fn at_rates(lane: &str, outputs: &str, states: &str) -> Texts {
+    let device = format!(
+        "device unit {{
+            part bed = lane {{ from: origin * frame(0, 0, 0.7, 0); length: 2.0; width: 0.4; speed: 0.4; }};
+            {lane}
+            part entry = source {{ on: bed; inset: 0.2; }};
+            part eye = beam {{ across: bed; at: 1.0; }};
+            out rate: real = bed.run_by stop 0;
+            in passes: bool = eye.sees;
+            {outputs}
+        }}
+        automaton Unit on unit {{ {states} }}"
+    );
+    let scenario = r#"{"kinds": [{"name": "box", "height": 0.2, "size": [0.3, 0.3]}],
+        "supply": {"items": ["box", "box"], "every_s": 2}, "goal": {"unit.end": {"box": 2}}, "time_limit_s": 60}"#;
+    Texts {
+        layout: r#"{"robots": [{"name": "unit", "type": "unit", "pose": [0, 0, 0]}]}"#.into(),
+        specs: vec![device],
+        scenario: Some(scenario.into()),
+        ..Texts::default()
+    }
+}
+
+/// Boxes appear at 2.02 s and 4.02 s in a run that starts at 0.02 s and never stands, whatever the speed.
+#[test]
+fn a_conveyor_runs_at_the_rate_of_its_level() {
+    let end = "part end = sink { of: bed; inset: 0; };";
+    let reaches = |states: &str, seconds: f64| {
+        let report =
+            run(&at_rates(end, "", states)).expect("a line").expect("the same however it is stepped");
+        assert_eq!(report.reason, "all items collected", "{states}");
+        assert!((report.simulated_s - seconds).abs() <= 0.011, "{} s, not {seconds} s", report.simulated_s);
+    };
+    let always = |rate: &str| format!("initial -> Runs {{ rate := {rate}; }} final state Runs;");
+    reaches(&always("1.0"), 4.02 + 1.8 / 0.4);
+    reaches(&always("0.5"), 4.02 + 1.8 / 0.2);
+    reaches(&always("7.5"), 4.02 + 1.8 / 0.4);
+    // From 6.02 s on at a quarter.
+    let slower = "initial -> Runs { rate := 0.5; } state Runs { when after 6 s -> Slow { rate := 0.25; } }
+        final state Slow;";
+    reaches(slower, 6.02 + (1.8 - 2.0 * 0.2) / 0.1);
+    // From 6.02 s to 9.02 s it stands: a rate below 0 is none.
+    let stands = "initial -> Runs { rate := 0.5; } state Runs { when after 6 s -> Stands { rate := -1.0; } }
+        state Stands { when after 3 s -> Again { rate := 1.0; } } final state Again;";
+    reaches(stands, 9.02 + (1.8 - 2.0 * 0.2) / 0.4);
+    // A ramp of 0.01 in each scan for 1 s, from 5.02 s on.
+    let ramp = "local n: int 0..100 := 0; local r: real := 0.0;
+        initial -> Runs { rate := 0.0; }
+        state Runs { when after 5 s -> Ramp {} }
+        state Ramp { when n < 100 -> Ramp { n := n + 1; r := r + 0.01; rate := r; } }";
+    let report = run(&at_rates(end, "", ramp)).expect("a line").expect("the same however it is stepped");
+    // It stood for the first 5 s, so the boxes came 2 s and 4 s after that.
+    let seconds = 5.02 + 4.0 + 1.8 / 0.4;
+    assert!((report.simulated_s - seconds).abs() <= 0.03, "{} s, not {seconds} s", report.simulated_s);
+}
+
+/// With `run` or commands the rate acts while these let it run.
+#[test]
+fn a_rate_acts_while_the_conveyor_runs() {
+    let end = "part end = sink { of: bed; inset: 0; };";
+    let seconds = |outputs: &str, states: &str| {
+        let report =
+            run(&at_rates(end, outputs, states)).expect("a line").expect("the same however it is stepped");
+        assert_eq!(report.reason, "all items collected");
+        report.simulated_s
+    };
+    let by_level = seconds(
+        "out run: bool = bed.run stop false;",
+        "initial -> Waits { rate := 0.5; } state Waits { when after 10 s -> Runs { run := true; } } final state Runs;",
+    );
+    let by_command = seconds(
+        "command 1 go() = bed.run();",
+        "initial -> Waits { rate := 0.5; } state Waits { when after 10 s -> Runs { go(); } } final state Runs;",
+    );
+    for found in [by_level, by_command] {
+        assert!((found - (10.02 + 4.0 + 1.8 / 0.2)).abs() <= 0.011, "{found}");
+    }
+}
+
+/// A belt that slows down lets the boxes of the one before it close up, and pulls them apart when it is fast again.
+#[test]
+fn items_keep_to_what_the_conveyor_after_theirs_does() {
+    let lane =
+        "part next = lane { from: origin * frame(2.0, 0, 0.7, 0); length: 2.0; width: 0.4; speed: 0.4; };
+        part end = sink { of: next; inset: 0; };";
+    let outputs = "out next_rate: real = next.run_by stop 0;";
+    let states = "initial -> Runs { rate := 1.0; next_rate := 0.25; }
+        state Runs { when after 14 s -> Fast { next_rate := 1.0; } } final state Fast;";
+    let report =
+        run(&at_rates(lane, outputs, states)).expect("a line").expect("the same however it is stepped");
+    assert_eq!(report.reason, "all items collected");
+    // The first box is over the joint at 6.52 s, at 0.1 m/s from then on. The second one comes up to it, 0.3 m behind, and
+    // goes on with it: at 14.02 s it is 0.75 - 0.3 m behind the joint.
+    let seconds = 14.02 + (2.0 - 0.45) / 0.4;
+    assert!((report.simulated_s - seconds).abs() <= 0.02, "{} s, not {seconds} s", report.simulated_s);
+}
+
 /// An item comes from one place only, and nothing is seen or stopped where there is no conveyor.
 /// The second conveyor carries the first box 0.25 * 3 m on until the second one comes down, more than its length; at 0.05 m/s
 /// it carries it 0.15 m on, and at 0.11 m/s 0.33 m.

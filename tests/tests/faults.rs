@@ -441,6 +441,17 @@ fn a_run_waits_for_the_end_of_a_fault() {
     assert!((25.5..25.6).contains(&ended.simulated_s), "{}", ended.simulated_s);
 }
 
+/// A person who is still to release a button keeps a run alive, up to the scan before.
+#[test]
+fn a_run_waits_for_the_operator() {
+    let scenario = r#""operator": [{"part": "start", "at_s": 20, "for_s": 0.5}]"#;
+    let ended = run(&line(BAR, OPENS, scenario), |line| {
+        line.scenario.stall_limit_s = 5.0;
+        line.scenario.time_limit_s = 40.0;
+    });
+    assert_eq!(ended.report.scans, 2_050 + 500, "{}", ended.report.reason);
+}
+
 /// A timer that runs is something that is to come, whatever its length: the line waits for it.
 #[test]
 fn a_run_waits_for_timers() {

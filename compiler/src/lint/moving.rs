@@ -1,6 +1,6 @@
 //! Outputs that move something while the line is stopped, and moving machines without a body.
 
-use crate::device::Device;
+use crate::device::{Device, Port};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{Automaton, Model};
 use runtime_sim::device::{Direction, PortType, Stop};
@@ -9,7 +9,9 @@ use runtime_sim::wiring::Drives;
 use std::collections::BTreeSet;
 
 /// Parts that move or fill while a level is on.
-const WORK: [&str; 2] = ["lane", "tank"];
+const WORK: [&str; 2] = [LANE, "tank"];
+/// It runs while all its levels let it, and its machine is not held.
+const LANE: &str = "lane";
 /// Parts that act when a level rises: it may stay in a pause, but must not come back by itself at power-up.
 const ACT_BY_EDGE: [&str; 2] = ["process", "source"];
 const CYLINDER: &str = "cylinder";
@@ -40,6 +42,11 @@ fn unstopped(automaton: &Automaton) -> Vec<Diagnostic> {
     for ((number, port), part) in &levels {
         let Some((_, name, Schema { name: kind, .. })) = primitive(*part) else { continue };
         let is_retained = automaton.retained.ports.contains(number);
+        let stops = |((_, other), of): &((usize, &Port), usize)| of == part && other.stop == Stop::Value(0.0);
+        let is_held = device.wiring.commands.iter().any(|command| command.part == *part);
+        if *kind == LANE && (is_held || levels.iter().any(stops)) {
+            continue;
+        }
         let valves = levels.iter().filter(|(_, other)| other == part).count();
         let comes_back = ACT_BY_EDGE.contains(kind) || *kind == CYLINDER && valves == 1;
         let moves = WORK.contains(kind) || comes_back && is_retained;

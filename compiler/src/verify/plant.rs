@@ -16,10 +16,10 @@ use runtime_sim::device::{Direction, PortType, Stop, error};
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
-use runtime_sim::part::lane::Lane as Conveyor;
+use runtime_sim::part::lane::{self, Lane as Conveyor};
 use runtime_sim::part::zone::Zone as Field;
 use runtime_sim::point::Point;
-use runtime_sim::wiring::{Command, Drives, Source};
+use runtime_sim::wiring::{Command, Drives, Source, Wiring};
 
 /// What stands for an input of a machine.
 #[derive(Clone, Debug)]
@@ -281,8 +281,11 @@ pub fn plant(
     Plant { inputs: signals.collect(), machine: found, outputs: levels }
 }
 
+/// Whether a conveyor runs by commands, at full speed.
 pub fn is_commanded(machine: &Machine, part: usize) -> bool {
-    machine.wiring.commands.iter().any(|command| command.part == part)
+    let Wiring { commands, outputs, .. } = &*machine.wiring;
+    let has_rate = outputs.iter().any(|output| output.drives == Drives::Level { part, level: lane::RUN_BY });
+    commands.iter().any(|command| command.part == part) && !has_rate
 }
 
 /// Whether items may be somewhere that is not searched: on a conveyor without commands, or at such a place.

@@ -14,12 +14,12 @@ use crate::wiring::Drives;
 
 pub const SCHEMA: Schema = Schema {
     signals: &[Signal { name: "moves", ty: PortType::Bool, extent: Extent::One }],
-    levels: &[Level { name: "run", ty: PortType::Bool }],
+    levels: &[Level { name: "run", ty: PortType::Bool }, Level { name: "run_by", ty: PortType::Real }],
     actions: &[Action { name: "run", arguments: &[] }, Action { name: "rest", arguments: &[] }],
     can_jam: true,
     ..Schema::new(
         "lane",
-        "A conveyor. It runs while its level `run` is on, or after its command `run` until `rest`; with neither it always runs, like a chute. With `from` and `length` it has any direction, straight or as an arc; with `along`, `range` and `surface` it lies along an axis of the world, from the upper to the lower end of its range. It has no solid of its own: give the machine bodies, such as guards and a frame, so that contact with it is found.",
+        "A conveyor. It runs while its level `run` is on, or after its command `run` until `rest`; with neither it always runs, like a chute. Its level `run_by`, if it has this one, is the part of its full speed at which it then runs, from 0 to 1, like the setpoint of a converter; what is less counts as 0, what is more as 1. With `from` and `length` it has any direction, straight or as an arc; with `along`, `range` and `surface` it lies along an axis of the world, from the upper to the lower end of its range. It has no solid of its own: give the machine bodies, such as guards and a frame, so that contact with it is found.",
         &[
             Setting::new("on", Form::Part(&["cylinder", "positioner"]), "", "what carries it; `from` is then its frame at the inner end, or at 0").optional(),
             Setting::new("from", Form::Frame, "m", "its beginning, on its surface; x is its direction").optional(),
@@ -50,8 +50,9 @@ pub struct Lane {
     pub speed: f64,
 }
 
-/// Number of the level.
+/// Numbers of the levels.
 pub const RUN: usize = 0;
+pub const RUN_BY: usize = 1;
 
 impl Described for Lane {
     fn new(settings: &Settings) -> Result<Self, String> {
@@ -71,10 +72,11 @@ impl Described for Lane {
 
     fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
         let (part, wiring) = (start.part, &start.machine().wiring);
-        let has_level = wiring.outputs.iter().any(|output| output.drives == Drives::Level { part, level: RUN });
+        let has = |level| wiring.outputs.iter().any(|output| output.drives == Drives::Level { part, level });
         let has_command = wiring.commands.iter().any(|command| command.part == part);
         let moving = Moving::new(self, part);
-        Ok(Some(Box::new(if has_level || has_command { moving } else { moving.always() })))
+        let moving = if has(RUN) || has_command { moving } else { moving.always() };
+        Ok(Some(Box::new(if has(RUN_BY) { moving.by(0.0) } else { moving })))
     }
 }
 

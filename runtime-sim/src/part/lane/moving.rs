@@ -1,6 +1,6 @@
 //! A conveyor at work.
 
-use super::{CentreLine, Lane};
+use super::{CentreLine, Lane, RUN_BY};
 use crate::carrier::Carrier;
 use crate::device::error;
 use crate::part::{Begun, Progress, Running, See, World};
@@ -15,9 +15,13 @@ pub struct Moving {
     lane: Lane,
     part: usize,
     drive: Drive,
+    /// The part of its full speed at which it runs.
+    rate: f64,
     held: bool,
-    /// Milliseconds at full speed since the start of the run.
+    /// Milliseconds since the start of the run in which it has moved.
     travel_ms: u64,
+    /// When its rate changed last: of these milliseconds how many had passed, and how far the surface had moved, m.
+    changed: Changed,
     now_ms: u64,
     /// The foremost first. Items that have come since the conveyors were checked last are not among them yet: they go
     /// with the surface.
@@ -57,19 +61,40 @@ pub enum Motion {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Drive {
-    FullSpeed,
+    Runs,
     Rest,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Changed {
+    travel_ms: f64,
+    travel: f64,
 }
 
 impl Moving {
     pub fn new(lane: &Lane, part: usize) -> Self {
         let lane = lane.clone();
-        Self { lane, part, drive: Drive::Rest, held: false, travel_ms: 0, now_ms: 0, riders: Vec::new() }
+        Self {
+            lane,
+            part,
+            drive: Drive::Rest,
+            rate: 1.0,
+            held: false,
+            travel_ms: 0,
+            changed: Changed::default(),
+            now_ms: 0,
+            riders: Vec::new(),
+        }
     }
 
     /// Nobody starts or stops it.
     pub fn always(self) -> Self {
-        Self { drive: Drive::FullSpeed, ..self }
+        Self { drive: Drive::Runs, ..self }
+    }
+
+    /// At this part of its full speed.
+    pub fn by(self, rate: f64) -> Self {
+        Self { rate, ..self }
     }
 
     pub fn lane(&self) -> &Lane {
@@ -89,22 +114,27 @@ impl Moving {
 
     /// The same at a time from the start of this span on, ms.
     pub fn travel_at(&self, ms: f64) -> f64 {
-        self.lane.distance(self.travel_ms_at(ms))
+        self.travel_after(self.travel_ms_at(ms))
     }
 
-    /// Milliseconds at full speed from the start of the run to a time from the start of this span on.
+    /// The same once it has moved for so many milliseconds, at its present rate since this changed last.
+    pub fn travel_after(&self, moved_ms: f64) -> f64 {
+        self.changed.travel + self.rate * self.lane.distance(moved_ms - self.changed.travel_ms)
+    }
+
+    /// Milliseconds in which it moves from the start of the run to a time from the start of this span on.
     pub fn travel_ms_at(&self, ms: f64) -> f64 {
         let since_ms = if self.is_moving() { ms - self.now_ms as f64 } else { 0.0 };
         self.travel_ms as f64 + since_ms
     }
 
     pub fn is_moving(&self) -> bool {
-        self.drive == Drive::FullSpeed && !self.held
+        self.drive == Drive::Runs && self.rate > 0.0 && !self.held
     }
 
     /// Of the surface, m/s.
     pub fn speed(&self) -> f64 {
-        if self.is_moving() { self.lane.speed } else { 0.0 }
+        if self.is_moving() { self.rate * self.lane.speed } else { 0.0 }
     }
 
     /// Of any point of the surface at most, m/s: up or down, or on the outer side of an arc.
@@ -165,7 +195,7 @@ impl Running for Moving {
 
     fn begin(&mut self, action: usize, _arguments: &[f64], _world: &mut World) -> Result<Begun, i32> {
         self.drive = match action {
-            0 => Drive::FullSpeed,
+            0 => Drive::Runs,
             1 => Drive::Rest,
             _ => return Err(error::REFUSED),
         };
@@ -180,8 +210,16 @@ impl Running for Moving {
         self.held = held;
     }
 
-    fn level(&mut self, _level: usize, value: &[f64]) {
-        self.drive = if value[0] != 0.0 { Drive::FullSpeed } else { Drive::Rest };
+    fn level(&mut self, level: usize, value: &[f64]) {
+        if level == RUN_BY {
+            let rate = if value[0] > 0.0 { value[0].min(1.0) } else { 0.0 };
+            if rate != self.rate {
+                self.changed = Changed { travel_ms: self.travel_ms as f64, travel: self.travel() };
+                self.rate = rate;
+            }
+        } else {
+            self.drive = if value[0] != 0.0 { Drive::Runs } else { Drive::Rest };
+        }
     }
 
     fn advance(&mut self, world: &mut World) -> Progress {

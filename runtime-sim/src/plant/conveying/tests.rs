@@ -8,6 +8,7 @@ use crate::device::Extent;
 use crate::frame::Frame;
 use crate::line::{IoDelay, Kind, Line, Scenario, Supply};
 use crate::machine::Machine;
+use crate::part::lane::{RUN, RUN_BY};
 use crate::part::{Part, Schema, Settings};
 use crate::point::Point;
 use crate::random::Random;
@@ -29,8 +30,10 @@ struct Design {
     supply: Vec<usize>,
     first_ms: u64,
     every_ms: u64,
+    /// Whether the lanes have rates: outputs after those of the stoppers.
+    has_rates: bool,
     /// Scan, output, value.
-    script: Vec<(u64, usize, bool)>,
+    script: Vec<(u64, usize, f64)>,
 }
 
 struct Belt {
@@ -78,17 +81,31 @@ fn design(random: &mut Random) -> Design {
         (lane, between(0.0, lanes[lane].length))
     });
     let beams = beams.collect();
-    let outputs = lanes.len() + stoppers.len();
-    let mut script: Vec<(u64, usize, bool)> = (0..lanes.len()).map(|lane| (0, lane, true)).collect();
+    let has_rates = between(0.0, 1.0) < 0.5;
+    let rates = lanes.len() + stoppers.len()..lanes.len() + stoppers.len() + lanes.len();
+    let outputs = if has_rates { rates.end } else { rates.start };
+    let begins = (0..lanes.len()).chain(rates.start..outputs);
+    let mut script: Vec<(u64, usize, f64)> = begins.map(|output| (0, output, 1.0)).collect();
     let mut scan = 0;
     while scan < SCANS {
         scan += between(5.0, 250.0) as u64;
         let output = between(0.0, outputs as f64) as usize;
-        script.push((scan, output, between(0.0, 1.0) < if output < lanes.len() { 0.8 } else { 0.4 }));
+        let is_on = |share: bool| f64::from(u8::from(share));
+        script.push((
+            scan,
+            output,
+            match output {
+                _ if rates.contains(&output) => {
+                    [0.0, 0.25, between(0.1, 1.0), 1.0][between(0.0, 4.0) as usize]
+                }
+                _ if output < lanes.len() => is_on(between(0.0, 1.0) < 0.8),
+                _ => is_on(between(0.0, 1.0) < 0.4),
+            },
+        ));
     }
     let supply = (0..30).map(|_| between(0.0, 3.0) as usize).collect();
     let (first_ms, every_ms) = (between(0.0, 900.0) as u64, between(200.0, 2500.0) as u64);
-    Design { lanes, stoppers, beams, lengths, supply, first_ms, every_ms, script }
+    Design { lanes, stoppers, beams, lengths, supply, first_ms, every_ms, has_rates, script }
 }
 
 impl Design {
@@ -169,7 +186,8 @@ impl Design {
         if belt.onto.is_none() {
             parts.push(part("end", "sink", vec![("of", lane.clone()), ("inset", value(0.0))]));
         }
-        let mut drives = vec![Drives::Level { part: 0, level: 0 }];
+        let mut drives = vec![Drives::Level { part: 0, level: RUN }];
+        drives.extend(self.has_rates.then_some(Drives::Level { part: 0, level: RUN_BY }));
         for (pin, stopper) in self.stoppers.iter().enumerate().filter(|(_, pin)| pin.lane == number) {
             let cylinder = parts.len();
             let ms = |ms: u64| value(ms as f64);
@@ -213,10 +231,11 @@ impl Design {
     fn output(&self, number: usize) -> (usize, usize) {
         match number.checked_sub(self.lanes.len()) {
             None => (number, 0),
+            Some(rate) if rate >= self.stoppers.len() => (rate - self.stoppers.len(), 1),
             Some(pin) => {
                 let lane = self.stoppers[pin].lane;
                 let before = self.stoppers[..pin].iter().filter(|other| other.lane == lane).count();
-                (lane, 1 + before)
+                (lane, 1 + usize::from(self.has_rates) + before)
             }
         }
     }
@@ -224,7 +243,7 @@ impl Design {
     fn apply(&self, scan: u64, outputs: &mut [Vec<f64>]) {
         for (_, output, value) in self.script.iter().filter(|(at, _, _)| *at == scan) {
             let (machine, word) = self.output(*output);
-            outputs[machine][word] = f64::from(u8::from(*value));
+            outputs[machine][word] = *value;
         }
     }
 }
@@ -246,9 +265,9 @@ struct Steps<'a> {
     /// Items of each lane that are still to come, and full-speed times.
     queues: Vec<Vec<usize>>,
     spawned: Vec<u64>,
-    /// Steps in which the lane moved.
+    /// Steps in which the lane moved, however fast.
     travel: Vec<u64>,
-    on: Vec<bool>,
+    on: Vec<f64>,
     /// Out by this part, for each stopper.
     out: Vec<f64>,
     /// It depends on less than a step what happens.
@@ -265,18 +284,25 @@ impl Steps<'_> {
         self.design.lengths[self.kinds[item]] / 2.0
     }
 
-    fn switch(&mut self, output: usize, value: bool) {
+    /// The part of its full speed at which a lane runs.
+    fn rate(&self, lane: usize) -> f64 {
+        let rates = self.design.lanes.len() + self.design.stoppers.len();
+        if self.on[lane] != 0.0 && self.design.has_rates { self.on[rates + lane] } else { self.on[lane] }
+    }
+
+    fn switch(&mut self, output: usize, value: f64) {
         let changes = std::mem::replace(&mut self.on[output], value) != value;
         let is_at_joint =
             |(lane, place): (usize, f64)| place < CLOSE || self.design.lanes[lane].length - place < CLOSE;
-        let is_lane = output < self.design.lanes.len();
-        self.is_close |= changes && is_lane && self.items.iter().flatten().any(|at| is_at_joint(*at));
+        let lanes = self.design.lanes.len();
+        let is_stopper = (lanes..lanes + self.design.stoppers.len()).contains(&output);
+        self.is_close |= changes && !is_stopper && self.items.iter().flatten().any(|at| is_at_joint(*at));
     }
 
     fn step(&mut self) {
         for (pin, out) in self.design.stoppers.iter().zip(0..) {
             let was_in = self.out[out] <= 0.0;
-            let is_on = self.on[self.design.lanes.len() + out];
+            let is_on = self.on[self.design.lanes.len() + out] != 0.0;
             let stroke_ms = if is_on { pin.extend_ms as f64 } else { -(pin.retract_ms as f64) };
             let step = 1.0 / stroke_ms / STEPS as f64;
             self.out[out] = (self.out[out] + step).clamp(0.0, 1.0);
@@ -302,7 +328,7 @@ impl Steps<'_> {
             self.advance(item);
         }
         for lane in 0..self.design.lanes.len() {
-            if self.on[lane] {
+            if self.rate(lane) > 0.0 {
                 self.travel[lane] += 1;
             }
             self.spawn(lane);
@@ -318,7 +344,7 @@ impl Steps<'_> {
         let Some((lane, place)) = self.items[item] else { return };
         let belt = &self.design.lanes[lane];
         let half = self.half(item);
-        let mut goal = if self.on[lane] { place + belt.speed / 1000.0 / STEPS as f64 } else { place };
+        let mut goal = place + self.rate(lane) * belt.speed / 1000.0 / STEPS as f64;
         for (pin, out) in self.design.stoppers.iter().zip(&self.out) {
             if pin.lane == lane && *out > 0.0 && place + half <= pin.at + 1e-6 {
                 goal = goal.min(pin.at - half);
@@ -365,7 +391,7 @@ impl Steps<'_> {
     fn spawn(&mut self, lane: usize) {
         let Some(&item) = self.queues[lane].last() else { return };
         let due = STEPS * (self.design.first_ms + self.spawned[lane] * self.design.every_ms);
-        if !self.on[lane] || self.travel[lane] < due {
+        if self.rate(lane) == 0.0 || self.travel[lane] < due {
             return;
         }
         let half = self.half(item);
@@ -408,7 +434,7 @@ fn events_are_those_of_every_scan_and_of_small_steps() {
             queues,
             spawned: vec![0; design.lanes.len()],
             travel: vec![0; design.lanes.len()],
-            on: vec![false; design.lanes.len() + design.stoppers.len()],
+            on: vec![0.0; 2 * design.lanes.len() + design.stoppers.len()],
             out: vec![0.0; design.stoppers.len()],
             is_close: seed >= stepped,
         };

@@ -281,7 +281,7 @@ pub fn appear(tracks: &mut [Track], index: usize, among: &mut Among, ms: f64) {
         let Some(item) = feed.supply.pop() else { return };
         let due_ms = feed.spawn.at_ms(feed.spawned) as f64;
         let is_late = feed.asked.is_some() || lane.travel_ms_at(ms) > due_ms + AT_ONCE;
-        let travel = if is_late { lane.travel_at(ms) } else { lane.lane().distance(due_ms) };
+        let travel = if is_late { lane.travel_at(ms) } else { lane.travel_after(due_ms) };
         feed.spawned += 1;
         let at = feed.place + travel;
         let point = centre_line.point(at - lane.travel_at(ms), 0.0);
