@@ -18,7 +18,7 @@ pub enum Carrier {
     Floor { point: Point },
     /// It left a lane where that has a sink, `part` of the machine.
     Sink { machine: usize, part: usize },
-    /// It lay at a place whose order was made elsewhere.
+    /// It lay at a place whose order was made elsewhere, or a person took it away.
     Collector,
     /// It has become a part of another item.
     Part { of: usize },

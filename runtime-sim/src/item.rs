@@ -43,6 +43,11 @@ impl Names {
         format!("{}_{number}", self.kinds[kind as usize])
     }
 
+    /// The item of this kind and number; none if the supply has fewer.
+    pub fn find(&self, kind: usize, number: u32) -> Option<usize> {
+        self.items.iter().position(|item| *item == [kind as u32, number])
+    }
+
     /// Of all items, in the order of the supply.
     pub fn all(&self) -> Vec<String> {
         (0..self.items.len()).map(|item| self.name(item)).collect()

@@ -109,6 +109,7 @@ pub struct Scenario {
     pub slow: Vec<SlowCycle>,
     pub operations: Vec<Operation>,
     pub presses: Vec<Press>,
+    pub removals: Vec<Removal>,
     /// Of all times that are drawn.
     pub seed: u64,
 }
@@ -169,6 +170,15 @@ pub struct Press {
     pub during: During,
 }
 
+/// A person takes an item off the line, at the start of a scan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Removal {
+    /// The kind that the item has when it comes from the supply, and its number among those of this kind, from 1.
+    pub kind: usize,
+    pub number: u32,
+    pub at_scan: u64,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineButton {
     Start,
@@ -214,9 +224,10 @@ impl Scenario {
             .map(|press| press.during.at_scan)
     }
 
-    /// Scans in which a button of the line is pressed or released.
-    pub fn press_changes(&self) -> impl Iterator<Item = u64> {
-        self.presses.iter().flat_map(|press| press.during.changes())
+    /// Scans in which a button of the line is pressed or released, or an item is removed.
+    pub fn changes_by_hand(&self) -> impl Iterator<Item = u64> {
+        let removals = self.removals.iter().map(|removal| removal.at_scan);
+        self.presses.iter().flat_map(|press| press.during.changes()).chain(removals)
     }
 }
 
@@ -254,6 +265,7 @@ impl Default for Scenario {
             slow: Vec::new(),
             operations: Vec::new(),
             presses: Vec::new(),
+            removals: Vec::new(),
             seed: 1,
         }
     }

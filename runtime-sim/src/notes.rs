@@ -1,5 +1,6 @@
 //! What a run did not come to.
 
+use crate::carrier::Carrier;
 use crate::line::{Line, LineButton};
 use crate::plant::Plant;
 use crate::report::{Outcome, seconds};
@@ -58,6 +59,32 @@ pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String>
         };
         timed(format!("press of `{button}`"), press.during.at_scan)
     });
+    let removals = scenario.removals.iter().zip(plant.missed_removals()).map(|(removal, missed)| {
+        let what = format!("removal of {}_{}", line.kinds[removal.kind].name, removal.number);
+        let missed = missed.map(|carrier| {
+            let at_s = seconds(removal.at_scan, line.scan_ms);
+            format!("not reached: {what} at {at_s:.2} s: then it was {}", missed_text(line, carrier))
+        });
+        missed.or_else(|| timed(what, removal.at_scan))
+    });
     let faults = slips.chain(refusals).chain(answers).chain(pauses).chain(power_offs);
-    faults.chain(sensors).chain(jams).chain(slow).chain(operations).chain(presses).flatten().collect()
+    faults
+        .chain(sensors)
+        .chain(jams)
+        .chain(slow)
+        .chain(operations)
+        .chain(presses)
+        .chain(removals)
+        .flatten()
+        .collect()
+}
+
+/// Where an item was that could not be taken away.
+fn missed_text(line: &Line, carrier: Carrier) -> String {
+    match carrier {
+        Carrier::Supply => "not on the line yet".into(),
+        Carrier::Grip { machine, .. } => format!("in the gripper of {}", line.machines[machine].name),
+        Carrier::Part { .. } => "a part of another item".into(),
+        _ => "off the line already".into(),
+    }
 }

@@ -9,6 +9,7 @@ mod faults;
 mod gripping;
 mod idle;
 mod phase;
+mod removing;
 mod sight;
 pub mod trajectory;
 mod upright;
@@ -31,6 +32,7 @@ use conveyed::Conveyed;
 use conveying::{Among, Conveying, Falls, View};
 pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use gripping::{Lying, NextLook};
+use removing::Removing;
 use trajectory::Trajectory;
 use upright::Upright;
 use working::{Shared, Working};
@@ -70,6 +72,8 @@ pub struct Plant {
     /// The phases of the machines with lanes when it was last looked how these go on.
     conveyed_on: u64,
     lying: Option<Lying>,
+    /// What a person takes off the line, in the order of the scenario.
+    removing: Vec<Removing>,
     /// Events of items and orders that have woken whom they concern.
     heard: usize,
 }
@@ -95,13 +99,16 @@ impl Plant {
         let scanners = parts(line, |part| matches!(part, Primitive::Scanner(_)));
         let mut scanning: Vec<usize> = scanners.map(|(machine, _)| machine).collect();
         scanning.dedup();
+        let names = Names::new(line);
+        let removals = line.scenario.removals.iter();
+        let removing = removals.map(|removal| Removing::new(removal, &names)).collect();
         let mut plant = Self {
             scan_ms: u64::from(line.scan_ms),
             scan: 0,
             machines,
             conveying: Conveying::new(line),
             items,
-            names: Names::new(line),
+            names,
             grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
             bodies: line.kinds.iter().map(Upright::of).collect(),
             obstacles: line.obstacles.clone(),
@@ -115,6 +122,7 @@ impl Plant {
             next_look: (0, f64::NEG_INFINITY),
             conveyed_on: 0,
             lying: None,
+            removing,
             heard: 0,
         };
         plant.sight();
@@ -157,7 +165,8 @@ impl Plant {
         let next = next_ms.is_finite().then(|| scan.max(self.scan + 1));
         let faulty = self.faulty.iter().map(|machine| self.machines[*machine].faults());
         let faults = faulty.map(|faults| faults.next_change(self.scan));
-        faults.chain([next, self.has_handed.then_some(self.scan + 1)]).flatten().min()
+        let removals = self.removing.iter().map(|removing| removing.next_change(self.scan));
+        faults.chain(removals).chain([next, self.has_handed.then_some(self.scan + 1)]).flatten().min()
     }
 
     /// The second part of [`Self::advance`]: everything moves on to the start of a later scan, before which nothing
@@ -177,6 +186,7 @@ impl Plant {
         working(machines).for_each(|machine| machine.advance(&mut shared));
         self.slip(scan);
         self.grip(scan);
+        self.remove(scan);
         self.wake_concerned(next_ms);
         let (machines, mut shared) = self.split(scan);
         for machine in working(machines) {

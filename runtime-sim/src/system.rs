@@ -61,13 +61,13 @@ impl Operator {
             return Some(scan + 1);
         }
         let ends = pauses(scenario).flat_map(|pause| [pause.at_scan, pause.end()]);
-        ends.chain([scenario.start_scan]).chain(scenario.press_changes()).filter(|at| *at > scan).min()
+        ends.chain([scenario.start_scan]).chain(scenario.changes_by_hand()).filter(|at| *at > scan).min()
     }
 
-    /// Something is still to come from here after this scan: a permit, an edge of `start`, a button pressed or released.
+    /// Something is still to come from here after this scan: a permit, an edge of `start`, what a person does.
     pub fn is_busy(&self, scan: u64, scenario: &Scenario) -> bool {
-        let is_pressed_later = scenario.press_changes().any(|change| change > scan);
-        !self.had_permit || self.owes_start || scan < scenario.start_scan || is_pressed_later
+        let is_at_work_later = scenario.changes_by_hand().any(|change| change > scan);
+        !self.had_permit || self.owes_start || scan < scenario.start_scan || is_at_work_later
     }
 }
 

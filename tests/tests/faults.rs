@@ -777,3 +777,70 @@ fn no_goal_is_reached_in_a_fault() {
     assert_eq!((late.finished, late.collected), (false, Some([2, 2])));
     assert_eq!(late.reason, "time limit: the line is in a fault");
 }
+
+/// Boxes appear at 3.02 s and 6.02 s and go 1.8 m at 0.5 m/s: the first one is at the beam from 3.02 + 0.65 / 0.5 s on.
+#[test]
+fn a_person_removes_an_item() {
+    let device =
+        "part belt = lane { from: origin * frame(0, 0, 0.7, 0); length: 2.0; width: 0.4; speed: 0.5; };
+        part entry = source { on: belt; inset: 0.2; };
+        part eye = beam { across: belt; at: 1.0; };
+        part end = sink { of: belt; inset: 0; };
+        in sees: bool = eye.sees;
+        out run: bool = belt.run;";
+    let automaton = "initial -> Waits { run := true; }
+        state Waits { when sees -> Sees {} } state Sees { when not sees -> Gone {} } final state Gone;";
+    let recorded = |goal: u32, removals: &str| {
+        let scenario = format!(
+            r#""kinds": [{{"name": "box", "height": 0.2, "size": [0.3, 0.3]}}],
+            "supply": {{"items": ["box", "box"], "every_s": 3}}, "goal": {{"it.end": {{"box": {goal}}}}},
+            "operator": [{removals}]"#
+        );
+        run(&line(device, automaton, &scenario), |_| {})
+    };
+    let gone_at = |recorded: &Recorded| {
+        let gone = recorded.history.machines[0].stays.iter().find(|stay| stay.state == 3);
+        gone.map(|stay| stay.scan * 10)
+    };
+    let removed = recorded(1, r#"{"remove": "box_1", "at_s": 4.5}"#);
+    assert_eq!((removed.report.finished, removed.report.scans), (true, 602 + 360));
+    // What a beam shows of an item that is taken off its lane follows in the next scan.
+    assert_eq!((gone_at(&removed), removed.report.notes.len()), (Some(4_510), 0));
+    // It is not there yet, and it is in the sink.
+    let missed = recorded(2, r#"{"remove": "box_2", "at_s": 6.01}, {"remove": "box_1", "at_s": 7}"#);
+    assert_eq!((missed.report.finished, missed.report.scans), (true, 602 + 360));
+    assert_eq!(
+        missed.report.notes,
+        [
+            "not reached: removal of box_2 at 6.01 s: then it was not on the line yet",
+            "not reached: removal of box_1 at 7.00 s: then it was off the line already",
+        ]
+    );
+    // It is still to come, so the line is not at a standstill before.
+    let late = recorded(2, r#"{"remove": "box_2", "at_s": 50}, {"remove": "box_1", "at_s": 50.5}"#);
+    assert_eq!(late.report.notes.len(), 2);
+}
+
+/// In `examples/tending` the arm loses its second part at the mill: it falls to the floor, where a person removes it.
+#[test]
+fn what_fell_to_the_floor_is_removed() {
+    let report = |removals: &str| {
+        let mut texts = side_by_side("tending/tending");
+        let scenario = texts.scenario.expect("the cell has a scenario");
+        let faults =
+            r#""faults": {"slips": [{"robot": "arm", "pick": 3, "after_s": 1}]}, "operator": [REMOVALS],"#;
+        let faults = faults.replace("REMOVALS", removals);
+        texts.scenario = Some(scenario.replacen('{', &format!("{{{faults}"), 1));
+        run(&texts, |_| {}).report
+    };
+    let on_floor = |report: &Report| report.items.iter().filter(|item| item.carrier == "floor").count();
+    let fallen = report("");
+    assert_eq!(on_floor(&fallen), 1, "{:?}", fallen.items);
+    let item = &fallen.items.iter().find(|item| item.carrier == "floor").expect("an item").name;
+    let early = report(&format!(r#"{{"remove": "{item}", "at_s": 1}}"#));
+    assert_eq!((on_floor(&early), early.notes.len()), (1, 1));
+    let removed = report(&format!(r#"{{"remove": "{item}", "at_s": 140}}"#));
+    assert_eq!((on_floor(&removed), removed.notes.len()), (0, 0), "{:?}", removed.notes);
+    let held = report(&format!(r#"{{"remove": "{item}", "at_s": 1}}, {{"remove": "blank_1", "at_s": 9}}"#));
+    assert_eq!(held.notes.len(), 2, "{:?}", held.notes);
+}

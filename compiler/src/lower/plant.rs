@@ -215,6 +215,13 @@ pub fn line(
             presses: (scenario.presses.iter())
                 .map(|press| line::Press { button: press.part, during: during(press.at_s, press.for_s) })
                 .collect(),
+            removals: (scenario.removals.iter())
+                .map(|removal| line::Removal {
+                    kind: removal.kind,
+                    number: removal.number,
+                    at_scan: during(removal.at_s, None).at_scan,
+                })
+                .collect(),
             ..line::Scenario::default()
         },
         io_delay: line::IoDelay::Fixed(0),

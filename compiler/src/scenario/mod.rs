@@ -34,6 +34,7 @@ pub struct Scenario {
     pub time_limit_s: f64,
     pub faults: Faults,
     pub operations: Vec<Operation<Operated>>,
+    pub removals: Vec<Removal>,
     /// What sinks should collect; empty: nobody asks.
     pub goal: Vec<Collected<Spanned<String>>>,
 }
@@ -187,6 +188,17 @@ pub struct Operation<Whose> {
     pub value: f64,
 }
 
+/// A person takes an item off the line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Removal {
+    /// The kind that the item has when it comes from the supply, and its number among those of this kind, from 1.
+    pub kind: usize,
+    pub number: u32,
+    pub at_s: f64,
+    /// Where it is named.
+    pub span: Span,
+}
+
 /// A scenario for one line: machines are indices, everything is decided.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResolvedScenario {
@@ -214,6 +226,7 @@ pub struct ResolvedScenario {
     /// The same.
     pub operations: Vec<Operation<[usize; 2]>>,
     pub presses: Vec<Operation<LineButton>>,
+    pub removals: Vec<Removal>,
     /// The same, of sinks.
     pub goal: Vec<Collected<[usize; 2]>>,
 }

@@ -63,7 +63,11 @@ impl Decoder {
         let orders = find(members, "orders");
         let time_limit_s = self.seconds_or(members, "time_limit_s", TIME_LIMIT_S);
         let faults = find(members, "faults").and_then(|j| self.faults(j)).unwrap_or_default();
-        let operations = find(members, "operator").map_or_else(Vec::new, |j| self.operator(j));
+        let known = kinds.as_ref().and_then(Option::as_ref);
+        let known: Option<Vec<&str>> =
+            known.map(|kinds| kinds.iter().map(|kind| kind.name.value.as_str()).collect());
+        let operator = find(members, "operator").map(|j| self.operator(j, known.as_deref()));
+        let operator = operator.unwrap_or_default();
         let kinds = kinds??;
         let names: Vec<&str> = kinds.iter().map(|k| k.name.value.as_str()).collect();
         let goal = find(members, "goal").map_or_else(Vec::new, |j| self.goal(j, &names));
@@ -95,7 +99,8 @@ impl Decoder {
             supply: supply?,
             time_limit_s,
             faults,
-            operations,
+            operations: operator.operations,
+            removals: operator.removals,
             goal,
         })
     }

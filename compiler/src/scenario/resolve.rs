@@ -101,6 +101,9 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             }
         }
     }
+    if let Some(Brought { supply, .. }) = &supply {
+        resolver.check_removals(supply);
+    }
     let goal = scenario.goal.iter().filter_map(|collected| resolver.collected(collected)).collect();
     sort(&mut resolver.diagnostics);
     match (orders, supply) {
@@ -125,6 +128,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
                 slow,
                 operations,
                 presses,
+                removals: scenario.removals.clone(),
                 goal,
             })
         }
@@ -248,6 +252,24 @@ impl<'a> Resolver<'a> {
             );
         }
         Some(Collected { sink: found?.1, items: items.clone() })
+    }
+
+    /// Whether the belts bring the items that a person removes.
+    fn check_removals(&mut self, supply: &[(usize, Vec<usize>)]) {
+        for removal in &self.scenario.removals {
+            let items = supply.iter().flat_map(|(_, items)| items);
+            let count = items.filter(|kind| **kind == removal.kind).count();
+            if removal.number as usize > count {
+                let name = &self.scenario.kinds[removal.kind].name.value;
+                let message = format!("there is no item {name}_{}", removal.number);
+                collect(
+                    &mut self.diagnostics,
+                    Diagnostic::new("E0131", removal.span, message)
+                        .note(format!("the belts bring {count} items of kind {name}"))
+                        .help("name one of these by its number among them, from 1"),
+                );
+            }
+        }
     }
 
     fn wrong_operation(

@@ -18,7 +18,11 @@ pub fn scenario() -> Value {
         property("supply", supply(), "What the belts bring"),
         property("time_limit_s", seconds(), "Simulated time after which the run ends, s. Without it: 3600"),
         property("faults", faults(), "Faults that the run simulates"),
-        property("operator", list(operation()), "What a person does at buttons and set-points"),
+        property(
+            "operator",
+            list(operation()),
+            "What a person does: at buttons and set-points, and with items",
+        ),
         property(
             "goal",
             json!({ "type": "object", "additionalProperties": parts(goal::MOST_ITEMS), "minProperties": 1 }),
@@ -230,6 +234,13 @@ fn operation() -> Value {
         property("at_s", seconds_from_0(), "When, s from the start of the run"),
         property("for_s", seconds(), "For how long, s. Without it: to the end of the run"),
         property("value", number(-operator::MOST, operator::MOST), "The number that is set at a set-point"),
+        property(
+            "remove",
+            text(),
+            "An item that the person takes off the line, such as battery_3; with at_s alone",
+        ),
     ];
-    object(all, &["part", "at_s"])
+    let mut operation = object(all, &["at_s"]);
+    operation["oneOf"] = json!([{ "required": ["part"] }, { "required": ["remove"] }]);
+    operation
 }

@@ -31,6 +31,7 @@ pub fn text(system: &System, line: &Line) -> String {
         slow,
         operations,
         presses,
+        removals,
         seed,
     } = &line.scenario;
     let faults = Faults { slips, refusals, answers, pauses, power_offs, sensors, jams, slow };
@@ -46,7 +47,7 @@ pub fn text(system: &System, line: &Line) -> String {
         json!({"first_s": spawn_first_s, "every_s": spawn_every_s, "seed": seed, "items": items});
     scenario["time_limit_s"] = json!(time_limit_s);
     scenario["faults"] = faults.json(system, line);
-    scenario["operator"] = operator::json(line, operations, presses);
+    scenario["operator"] = operator::json(line, operations, presses, removals);
     format!("{scenario:#}\n")
 }
 

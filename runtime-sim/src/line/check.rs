@@ -165,6 +165,9 @@ impl Line {
                 return Err(format!("an operation of {} at no time, or to no number", panel.name));
             }
         }
+        if let Some(removal) = scenario.removals.iter().find(|removal| removal.kind >= self.kinds.len()) {
+            return Err(format!("a removal of kind {}, which is not there", removal.kind));
+        }
         Ok(())
     }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::{
     Collected, During, Goal, IoDelay, Kind, Line, LineButton, Obstacle, Operation, Order, Press, ReadWhile,
-    Scenario, State, Supply,
+    Removal, Scenario, State, Supply,
 };
 use crate::machine::Machine;
 use crate::monitor::{Alarm, Counter, Monitor};
@@ -132,6 +132,10 @@ impl Line {
                 LineButton::Reset => "reset",
             };
             put(format!("  {button} {}", during_text(*during)));
+        }
+        put(format!("removals {}", scenario.removals.len()));
+        for Removal { kind, number, at_scan } in &scenario.removals {
+            put(format!("  {kind} {number} {at_scan}"));
         }
         put(format!("seed {}", scenario.seed));
         put("end".into());
@@ -320,6 +324,8 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     let operations = words.list(read_operation)?;
     words.expect("presses")?;
     let presses = words.list(read_press)?;
+    words.expect("removals")?;
+    let removals = words.list(|w| Ok(Removal { kind: w.int()?, number: w.int()?, at_scan: w.int()? }))?;
     words.expect("seed")?;
     let seed = words.int()?;
     Ok(Scenario {
@@ -333,6 +339,7 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
         start_scan,
         operations,
         presses,
+        removals,
         seed,
         ..faults
     })
