@@ -350,3 +350,37 @@ fn an_output_whose_value_by_hand_has_a_name_of_the_panel_is_told() {
     }
     assert_eq!(told_with_panels("out verb: bool = l.on;"), []);
 }
+
+/// Names are wider than the machines here; a character is taken for no wider than it is in wide fonts.
+#[test]
+fn the_names_of_a_plan_are_within_the_picture() {
+    let names = ["a", "the_lamp_at_the_left_of_the_line", "the_lamp_at_the_end_of_the_line"];
+    let lamps = names.iter().zip([0.0, 0.2, 1.0]);
+    let lamps =
+        lamps.map(|(name, x)| format!(r#"{{"name": "{name}", "type": "signal", "pose": [{x:?}, 0, 0]}}"#));
+    let texts = Texts {
+        layout: format!(r#"{{"robots": [{}]}}"#, lamps.collect::<Vec<_>>().join(", ")),
+        specs: vec![
+            "device signal { part lamp = lamp { at: pose; colour: green; }; out on: bool = lamp.on; }
+            automaton Signal on signal { initial -> Lit { on := true; } state Lit { when false -> Lit {} } }"
+                .into(),
+        ],
+        scenario: Some(r#"{"time_limit_s": 1}"#.into()),
+        ..Texts::default()
+    };
+    let project = texts.project();
+    let svg = autogen::backend::plan::svg(&project.plant, &project.edges);
+    let number = |text: &str| text.parse::<f64>().expect("a number");
+    let view = svg.split_once("viewBox=\"").and_then(|(_, rest)| rest.split_once('"')).expect("a view box").0;
+    let view: Vec<f64> = view.split(' ').map(number).collect();
+    let [left, _, width, _] = view[..] else { panic!("{view:?}") };
+    let mut found = 0;
+    for text in svg.split("<text class=\"name\" x=\"").skip(1) {
+        let (x, rest) = text.split_once('"').expect("a place");
+        let name = rest.split_once('>').and_then(|(_, rest)| rest.split_once('<')).expect("a name").0;
+        let half = name.len() as f64 * 0.7 * 16.0 / 2.0;
+        assert!((left + half..=left + width - half).contains(&number(x)), "{name} at {x} of {view:?}");
+        found += 1;
+    }
+    assert_eq!(found, names.len());
+}

@@ -310,3 +310,25 @@ fn a_scan_that_comes_late_ends_what_is_moved_by_hand() {
         assert_eq!(machine.get("a_on"), 1.0, "released and pressed, runs: {runs}");
     }
 }
+
+#[test]
+fn a_device_without_a_description_has_no_comment() {
+    let comment = |description: &str| {
+        let types = format!(
+            "{description}
+            device signal {{ part lamp = lamp {{ at: pose; colour: green; }}; out on: bool = lamp.on; }}
+            automaton Signal on signal {{ initial -> Lit {{ on := true; }} state Lit {{ when false -> Lit {{}} }} }}"
+        );
+        let texts = Texts {
+            layout: r#"{"robots": [{"name": "signal", "type": "signal", "pose": [0, 0, 0]}]}"#.into(),
+            specs: vec![types],
+            scenario: Some(r#"{"time_limit_s": 1}"#.into()),
+            ..Texts::default()
+        };
+        let outcome = texts.compile();
+        let main = emitted(&outcome.project.expect("a line").system, &outcome.sources).main;
+        main.lines().find(|line| line.contains("On the device")).map(|line| line.trim().to_owned())
+    };
+    assert_eq!(comment("/// A lamp on a post."), Some("On the device signal: A lamp on a post.".into()));
+    assert_eq!(comment(""), None);
+}

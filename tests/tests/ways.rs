@@ -163,6 +163,53 @@ fn a_vehicle_that_comes_under_a_chute_takes_its_items_to_an_arm() {
     assert_eq!(errors(&texts.compile()), [("E0410", "no `box` can get to the sink out.store".into())]);
 }
 
+/// The palletiser of the examples as two machines: a conveyor, and an arm with its pallet, which no handover joins.
+#[test]
+fn the_station_of_an_order_is_within_reach_of_what_brings_its_items() {
+    let types = text("examples/scenes/palletizer.aut");
+    let conveyor = "device infeed {
+            part belt = lane { from: origin * frame(0, 0, 0.7, 0); length: 1.5; width: 0.3; speed: 0.4; };
+            part feed = source { on: belt; inset: 0.2; };
+            out run: bool = belt.run;
+        }
+        automaton Infeed on infeed { initial -> Runs { run := true; } state Runs { when false -> Runs {} } }";
+    let apart = |x: f64, faults: &str| {
+        let texts = Texts {
+            layout: format!(
+                r#"{{"robots": [{{"name": "infeed", "type": "infeed", "pose": [{x:?}, 0.5, 0]}},
+                    {{"name": "robot", "type": "palletizer", "pose": [0, 0, 0]}}]}}"#
+            ),
+            specs: vec![
+                types.replace("part feeder = source { on: infeed; inset: 0.2; };", ""),
+                conveyor.into(),
+            ],
+            scenario: Some(format!(
+                r#"{{"kinds": [{{"name": "box", "height": 0.15, "size": [0.2, 0.2]}}],
+                    "orders": {{"count": 2, "parts": {{"box": 8}}}}{faults}}}"#
+            )),
+            ..Texts::default()
+        };
+        texts.compile().diagnostics
+    };
+    let found = apart(-3.0, "");
+    let [missing] = &found[..] else { panic!("{found:?}") };
+    let told = (missing.code, missing.message.as_str());
+    assert_eq!(told, ("E0410", "no `box` can get to robot, whose orders ask for it"));
+    let notes: Vec<&str> = missing.notes.iter().map(String::as_str).collect();
+    assert_eq!(
+        notes,
+        [
+            "machines that a `box` can get to: infeed",
+            "beyond the end of infeed.belt it falls onto neither a conveyor nor a place",
+            "the tool of robot stays at least 2.630 m away from items on infeed, the nearest of these machines",
+        ]
+    );
+    // Within reach, as far as can be seen from above; and what falls from a gripper may get anywhere.
+    assert_eq!(apart(-0.5, ""), []);
+    let slips = r#", "faults": {"slips": [{"robot": "robot", "pick": 1, "after_s": 0.1}]}"#;
+    assert_eq!(apart(-3.0, slips), []);
+}
+
 /// Conveyors in a row, of which every item passes the second one; with another inlet beside it, only the last one.
 #[test]
 fn every_item_passes_the_conveyors_of_a_row() {

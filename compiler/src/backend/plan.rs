@@ -16,19 +16,26 @@ use std::fmt::Write;
 const SCALE: f64 = 60.0;
 /// Empty border around the machines, m.
 const BORDER: f64 = 0.9;
+/// The same around names and circles, m.
+const MARGIN: f64 = 0.1;
+/// Width of a character of a name for each pixel of its height, in wide fonts.
+const CHARACTER: f64 = 0.72;
+/// Heights of names, pixels.
+const NAME: f64 = 16.0;
+const SMALL: f64 = 10.0;
 
 /// One drawing; edges are between machines.
 pub fn svg(line: &Line, edges: &[Edge]) -> String {
     let mut drawing = Drawing {
         body: String::new(),
         labels: String::new(),
-        low: (f64::MAX, f64::MAX),
-        high: (f64::MIN, f64::MIN),
+        machines: Extent::NOTHING,
+        others: Extent::NOTHING,
     };
     for obstacle in &line.obstacles {
         let size = obstacle.size.unwrap_or(Point::new(0.4, 0.4, 0.0));
         drawing.rectangle(obstacle.pose, (size.x, size.y), "obstacle");
-        drawing.label(obstacle.pose, &obstacle.name, "small");
+        drawing.label(obstacle.pose, &obstacle.name, ("small", SMALL));
     }
     for machine in &line.machines {
         drawing.machine(machine);
@@ -99,8 +106,35 @@ struct Drawing {
     body: String,
     /// Drawn over everything else.
     labels: String,
+    machines: Extent,
+    /// Names and circles.
+    others: Extent,
+}
+
+/// From the least to the greatest coordinates, m.
+#[derive(Clone, Copy)]
+struct Extent {
     low: (f64, f64),
     high: (f64, f64),
+}
+
+impl Extent {
+    const NOTHING: Self = Self { low: (f64::MAX, f64::MAX), high: (f64::MIN, f64::MIN) };
+
+    fn take(&mut self, x: f64, y: f64) {
+        self.low = (self.low.0.min(x), self.low.1.min(y));
+        self.high = (self.high.0.max(x), self.high.1.max(y));
+    }
+
+    fn wider(self, by: f64) -> Self {
+        Self { low: (self.low.0 - by, self.low.1 - by), high: (self.high.0 + by, self.high.1 + by) }
+    }
+
+    fn with(mut self, other: Self) -> Self {
+        self.take(other.low.0, other.low.1);
+        self.take(other.high.0, other.high.1);
+        self
+    }
 }
 
 impl Drawing {
@@ -113,17 +147,12 @@ impl Drawing {
                 Shape::Polygon(corners) => self.polygon(&corners, class),
             }
         }
-        self.label(footprint::label(machine), &machine.name, "name");
-    }
-
-    fn take(&mut self, x: f64, y: f64) {
-        self.low = (self.low.0.min(x), self.low.1.min(y));
-        self.high = (self.high.0.max(x), self.high.1.max(y));
+        self.label(footprint::label(machine), &machine.name, ("name", NAME));
     }
 
     fn rectangle(&mut self, centre: Point, (width, height): (f64, f64), class: &str) {
-        self.take(centre.x - width / 2.0, centre.y - height / 2.0);
-        self.take(centre.x + width / 2.0, centre.y + height / 2.0);
+        self.machines.take(centre.x - width / 2.0, centre.y - height / 2.0);
+        self.machines.take(centre.x + width / 2.0, centre.y + height / 2.0);
         let (x, y) = (px(centre.x - width / 2.0), py(centre.y + height / 2.0));
         let _ = writeln!(
             self.body,
@@ -134,13 +163,15 @@ impl Drawing {
     }
 
     fn polygon(&mut self, corners: &[Point], class: &str) {
-        corners.iter().for_each(|corner| self.take(corner.x, corner.y));
+        corners.iter().for_each(|corner| self.machines.take(corner.x, corner.y));
         let points: Vec<String> = corners.iter().map(|c| format!("{:.1},{:.1}", px(c.x), py(c.y))).collect();
         let _ = writeln!(self.body, "<polygon class=\"{class}\" points=\"{}\"/>", points.join(" "));
     }
 
     fn circle(&mut self, centre: Point, radius: f64, class: &str) {
-        self.take(centre.x, centre.y);
+        self.machines.take(centre.x, centre.y);
+        self.others.take(centre.x - radius, centre.y - radius);
+        self.others.take(centre.x + radius, centre.y + radius);
         let _ = writeln!(
             self.body,
             "<circle class=\"{class}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"{:.1}\"/>",
@@ -151,8 +182,8 @@ impl Drawing {
     }
 
     fn line(&mut self, from: Point, to: Point, class: &str) {
-        self.take(from.x, from.y);
-        self.take(to.x, to.y);
+        self.machines.take(from.x, from.y);
+        self.machines.take(to.x, to.y);
         let _ = writeln!(
             self.body,
             "<line class=\"{class}\" x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\"/>",
@@ -176,7 +207,11 @@ impl Drawing {
         );
     }
 
-    fn label(&mut self, at: Point, text: &str, class: &str) {
+    fn label(&mut self, at: Point, text: &str, (class, height): (&str, f64)) {
+        let half = text.chars().count() as f64 * CHARACTER * height / 2.0 / SCALE;
+        let height = height / SCALE;
+        self.others.take(at.x - half, at.y - height);
+        self.others.take(at.x + half, at.y + height);
         let _ = writeln!(
             self.labels,
             "<text class=\"{class}\" x=\"{:.1}\" y=\"{:.1}\">{text}</text>",
@@ -186,13 +221,12 @@ impl Drawing {
     }
 
     fn finish(self) -> String {
-        let (low, high) = match self.body.is_empty() {
-            true => ((0.0, 0.0), (1.0, 1.0)),
-            false => (self.low, self.high),
+        let Extent { low, high } = match self.body.is_empty() && self.labels.is_empty() {
+            true => Extent { low: (0.0, 0.0), high: (1.0, 1.0) }.wider(BORDER),
+            false => self.machines.wider(BORDER).with(self.others.wider(MARGIN)),
         };
-        let (x, y) = (px(low.0 - BORDER), py(high.1 + BORDER));
-        let width = (high.0 - low.0 + 2.0 * BORDER) * SCALE;
-        let height = (high.1 - low.1 + 2.0 * BORDER) * SCALE;
+        let (x, y) = (px(low.0), py(high.1));
+        let [width, height] = [high.0 - low.0, high.1 - low.1].map(|length| length * SCALE);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{x:.1} {y:.1} {width:.1} {height:.1}\" width=\"{width:.0}\" height=\"{height:.0}\">\n\
 <defs><marker id=\"head\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"7\" markerHeight=\"7\" orient=\"auto-start-reverse\"><path d=\"M 0 0 L 10 5 L 0 10 z\" fill=\"#b3261e\"/></marker></defs>\n\

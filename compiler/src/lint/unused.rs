@@ -1,9 +1,10 @@
-//! Cells and locals that are written and never read, or read and never written; parameters that are never read.
+//! Cells and locals that are written and never read, or read and never written; parameters that are never read; roles that
+//! are never used.
 
 use crate::diagnostic::Diagnostic;
 use crate::ir::{
-    Automaton, Binder, Clause, Domain, Expr, ExprKind, InterfaceId, Model, Parameter, Place, Property,
-    TextPart, UpdateKind, Value,
+    Automaton, Binder, Clause, Domain, Expr, ExprKind, InterfaceId, Model, Parameter, Place, Property, Role,
+    RoleKind, TextPart, UpdateKind, Value,
 };
 use crate::source::{FileId, Span};
 use crate::spec::ast;
@@ -22,6 +23,8 @@ struct Uses {
     written: BTreeSet<Variable>,
     /// Parameters of the automaton at hand, by their numbers.
     parameters: BTreeSet<usize>,
+    /// The same of roles.
+    roles: BTreeSet<usize>,
 }
 
 pub fn check(model: &Model, files: &[(FileId, ast::File)], found: &mut Vec<Diagnostic>) {
@@ -34,6 +37,8 @@ pub fn check(model: &Model, files: &[(FileId, ast::File)], found: &mut Vec<Diagn
             own.filter(|(number, _)| !uses.has_parameter(automaton, *number)).map(|(_, p)| unread(p)),
         );
         uses.requires(automaton);
+        let roles = automaton.roles.iter().enumerate().filter(|(_, role)| is_told_only(role));
+        found.extend(roles.filter(|(number, _)| !uses.roles.contains(number)).map(|(_, role)| unused(role)));
         for (number, local) in automaton.locals.iter().enumerate() {
             let place = place(files, &automaton.name, |a| &a.locals, |local| &local.name, &local.name);
             found.extend(uses.warning("W0105", "local", &local.name, Variable::Local(number), place));
@@ -73,6 +78,17 @@ fn unread(parameter: &Parameter) -> Diagnostic {
     Diagnostic::new("W0108", parameter.place, message)
         .note("whatever the layout sets, the machine does the same; `require` does not count")
         .help("use it, or remove it")
+}
+
+/// Roles of the other kinds decide who hands over to whom.
+fn is_told_only(role: &Role) -> bool {
+    matches!(role.kind, RoleKind::Knows | RoleKind::Serves)
+}
+
+fn unused(role: &Role) -> Diagnostic {
+    Diagnostic::new("W0116", role.place, format!("the role `{}` is never used", role.name))
+        .note("the machine does the same whoever its members are")
+        .help("use it, or remove it; `require` with `count` says how many there have to be")
 }
 
 impl Uses {
@@ -136,6 +152,7 @@ impl Uses {
                     self.expr(low);
                     self.expr(high);
                 }
+                self.domain(domain);
                 condition.iter().chain(key).for_each(|expr| self.expr(expr));
             }
         }
@@ -181,7 +198,23 @@ impl Uses {
                 self.parameters.insert(*parameter);
             }
         }
+        match &expr.kind {
+            ExprKind::Members(role) | ExprKind::IsMember(_, role) => {
+                self.roles.insert(role.0);
+            }
+            ExprKind::Exists { domain, .. }
+            | ExprKind::Forall { domain, .. }
+            | ExprKind::Count { domain, .. }
+            | ExprKind::Sum { domain, .. } => self.domain(domain),
+            _ => {}
+        }
         expr.parts().into_iter().for_each(|part| self.expr(part));
+    }
+
+    fn domain(&mut self, domain: &Domain) {
+        if let Domain::Role(role) = domain {
+            self.roles.insert(role.0);
+        }
     }
 
     fn read(&mut self, place: &Place) {

@@ -1,13 +1,18 @@
-//! Whether items can get to the sinks that should collect them.
+//! Whether items can get to the sinks that should collect them, and to the stations whose orders ask for them.
+
+mod by_hand;
+mod missing;
 
 use super::{Loss, Lost};
 use crate::connect::Edge;
 use crate::diagnostic::Diagnostic;
-use crate::layout::decode::listing;
+use crate::layout::Layout;
 use crate::scenario::Scenario;
+use by_hand::ByHand;
+use missing::{Asked, Missing};
 use runtime_sim::line::{self, Goal, Line};
 use runtime_sim::part::Primitive;
-use runtime_sim::plant::{By, Transfer};
+use runtime_sim::plant::Transfer;
 use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};
 
@@ -20,32 +25,63 @@ enum Spot {
     Machine(usize),
 }
 
-/// One for each kind that a sink should collect, and that cannot get there. `edges` are those between machines.
+/// One for each kind that a sink should collect, or that the orders of a station ask for, and that cannot get there.
+/// `edges` are those between machines.
 pub fn out_of_reach(
     scenario: &Scenario,
+    layout: &Layout,
     line: &Line,
     edges: &[Edge],
     transfers: &[Transfer],
 ) -> Vec<Diagnostic> {
-    let Goal::Collected(goal) = &line.scenario.goal else { return Vec::new() };
-    if is_anywhere(line, edges) {
+    // What falls from a gripper may get anywhere.
+    if !line.scenario.slips.is_empty() {
         return Vec::new();
     }
-    let reached = reached(line, edges, transfers, None);
-    let asked = goal.iter().zip(&scenario.goal);
-    let lacking = asked.flat_map(|(collected, written)| {
-        let kinds = (0..line.kinds.len()).filter(|kind| collected.items[*kind] > 0);
-        let missed = kinds.filter(|kind| !comes_to(line, &reached, collected, *kind));
-        missed.map(|kind| diagnostic(line, transfers, &reached, kind, written)).collect::<Vec<_>>()
-    });
-    lacking.collect()
+    let Some(by_hand) = ByHand::new(line, without_handovers(line, edges)) else { return Vec::new() };
+    let reached = reached(line, handovers(edges).chain(by_hand.pairs()), transfers, None);
+    let missing = Missing { line, transfers, by_hand: &by_hand, reached: &reached };
+    let mut found = Vec::new();
+    if let Goal::Collected(goal) = &line.scenario.goal {
+        for (collected, written) in goal.iter().zip(&scenario.goal) {
+            let kinds = (0..line.kinds.len()).filter(|kind| collected.items[*kind] > 0);
+            let missed = kinds.filter(|kind| !comes_to(line, &reached, collected, *kind));
+            let asked = Asked::Sink(&written.sink);
+            found.extend(missed.map(|kind| missing.diagnostic(kind, &asked)));
+        }
+    }
+    let mut told: HashSet<(usize, usize)> = HashSet::new();
+    for order in &line.scenario.orders {
+        let gets = |kind: usize| {
+            order.stations.iter().any(|station| reached.contains(&(Spot::Machine(*station), kind)))
+        };
+        let kinds = (0..line.kinds.len()).filter(|kind| order.parts[*kind] > 0);
+        for kind in kinds.filter(|kind| !gets(*kind)) {
+            let stations = order.stations.iter().filter(|station| told.insert((**station, kind)));
+            let names = stations.filter_map(|station| {
+                let name = &line.machines[*station].name;
+                layout.objects.iter().map(|object| &object.name).find(|known| known.value == *name)
+            });
+            found.extend(names.map(|name| missing.diagnostic(kind, &Asked::Station(name))));
+        }
+    }
+    found
+}
+
+fn handovers(edges: &[Edge]) -> impl Iterator<Item = [usize; 2]> + Clone {
+    edges.iter().map(|edge| [edge.from, edge.to])
+}
+
+/// Arms that know no handovers: these may take what is within their reach.
+fn without_handovers(line: &Line, edges: &[Edge]) -> Vec<usize> {
+    let known: HashSet<usize> = handovers(edges).flatten().collect();
+    let is_free = |machine: &usize| has_grip(line, *machine) && !known.contains(machine);
+    (0..line.machines.len()).filter(is_free).collect()
 }
 
 /// What falls from a gripper, and what an arm takes that knows no handovers, may get anywhere.
 fn is_anywhere(line: &Line, edges: &[Edge]) -> bool {
-    let is_free =
-        |machine: usize| has_grip(line, machine) && !edges.iter().any(|e| [e.from, e.to].contains(&machine));
-    !line.scenario.slips.is_empty() || (0..line.machines.len()).any(is_free)
+    !line.scenario.slips.is_empty() || !without_handovers(line, edges).is_empty()
 }
 
 /// Machines of a line for each of which it is found out what is lost without it.
@@ -73,7 +109,7 @@ pub fn losses(line: &Line, edges: &[Edge], transfers: &[Transfer]) -> Vec<Loss> 
             }
         }
     }
-    let whole = reached(line, edges, transfers, None);
+    let whole = reached(line, handovers(edges), transfers, None);
     let lost = |spot: Spot, at: &str, left: &HashSet<(Spot, usize)>| -> Lost {
         let all = (0..line.kinds.len()).filter(|kind| whole.contains(&(spot, *kind)));
         let (others, kinds): (Vec<_>, Vec<_>) = all.partition(|kind| left.contains(&(spot, *kind)));
@@ -81,7 +117,7 @@ pub fn losses(line: &Line, edges: &[Edge], transfers: &[Transfer]) -> Vec<Loss> 
         Lost { at: at.into(), kinds: names(kinds), others: names(others) }
     };
     let without = |machine: usize| {
-        let left = reached(line, edges, transfers, Some(machine));
+        let left = reached(line, handovers(edges), transfers, Some(machine));
         let others = goals.iter().filter(|(at, ..)| *at != machine);
         let lost = others.map(|(_, spot, name)| lost(*spot, name, &left));
         let goals: Vec<_> = lost.filter(|lost| !lost.kinds.is_empty()).collect();
@@ -98,7 +134,7 @@ pub fn comes_onto<'a>(
 ) -> impl Fn((usize, usize), usize) -> bool + 'a {
     let all = OnceCell::new();
     move |(machine, part), kind| {
-        let reached = all.get_or_init(|| reached(line, edges, transfers, None));
+        let reached = all.get_or_init(|| reached(line, handovers(edges), transfers, None));
         reached.contains(&(Spot::Lane(machine, part), kind))
     }
 }
@@ -117,7 +153,7 @@ fn comes_to(line: &Line, reached: &HashSet<(Spot, usize)>, sink: &line::Collecte
 /// Where items of each kind may get to, whatever is commanded, if one machine is missing or none.
 fn reached(
     line: &Line,
-    edges: &[Edge],
+    handovers: impl Iterator<Item = [usize; 2]>,
     transfers: &[Transfer],
     missing: Option<usize>,
 ) -> HashSet<(Spot, usize)> {
@@ -142,7 +178,7 @@ fn reached(
         _ => Spot::Machine(machine),
     };
     let mut hands_to = vec![Vec::new(); line.machines.len()];
-    edges.iter().for_each(|edge| hands_to[edge.from].push(edge.to));
+    handovers.for_each(|[from, to]| hands_to[from].push(to));
     let mut reached = HashSet::new();
     while let Some((spot, kind)) = open.pop() {
         let (Spot::Lane(machine, _) | Spot::Machine(machine)) = spot;
@@ -181,81 +217,4 @@ fn made_of(line: &Line, machine: usize, kind: usize) -> impl Iterator<Item = usi
     let made = line.machines[machine].processes().flat_map(|process| process.made());
     let made = made.filter(move |[from, _]| *from == line.kinds[kind].name);
     made.filter_map(|[_, to]| line.kinds.iter().position(|kind| kind.name == to))
-}
-
-/// The conveyors at the end of which a kind falls onto neither a conveyor nor a place.
-fn open_ends(
-    line: &Line,
-    transfers: &[Transfer],
-    reached: &HashSet<(Spot, usize)>,
-    kind: usize,
-) -> Vec<String> {
-    let mut ends = Vec::new();
-    for (number, machine) in line.machines.iter().enumerate() {
-        for (part, of) in machine.parts.iter().enumerate() {
-            let has_sink = || {
-                let mut parts = machine.parts.iter();
-                parts.any(|other| matches!(&other.primitive, Primitive::Sink(sink) if sink.lane == part))
-            };
-            let goes_on = |transfer: &Transfer| {
-                transfer.from == (number, part) && transfer.by != By::Branch && transfer.kinds.contains(&kind)
-            };
-            if reached.contains(&(Spot::Lane(number, part), kind))
-                && !has_sink()
-                && !transfers.iter().any(goes_on)
-            {
-                ends.push(format!("{}.{}", machine.name, of.name));
-            }
-        }
-    }
-    ends
-}
-
-fn diagnostic(
-    line: &Line,
-    transfers: &[Transfer],
-    reached: &HashSet<(Spot, usize)>,
-    kind: usize,
-    written: &crate::scenario::Collected<crate::source::Spanned<String>>,
-) -> Diagnostic {
-    let (name, sink) = (&line.kinds[kind].name, &written.sink);
-    let message = format!("no `{name}` can get to the sink {}", sink.value);
-    let diagnostic = Diagnostic::new("E0410", sink.span, message);
-    let machines = line.machines.iter().enumerate();
-    let passed = machines.filter(|(number, _)| reached.contains(&(Spot::Machine(*number), kind)));
-    let passed: Vec<&str> = passed.map(|(_, machine)| machine.name.as_str()).collect();
-    if passed.is_empty() {
-        let makers = line.machines.iter().enumerate().flat_map(|(number, machine)| {
-            let from = line.kinds.iter().enumerate();
-            let from = from.filter(move |(from, _)| made_of(line, number, *from).any(|to| to == kind));
-            from.map(|(_, from)| format!("{} makes it of a `{}`", machine.name, from.name))
-        });
-        let makers: Vec<String> = makers.collect();
-        let diagnostic = diagnostic.note(format!("no source brings a `{name}`"));
-        return if makers.is_empty() {
-            diagnostic.note(format!("no process makes a `{name}`")).help(format!(
-                "add `{name}` to `items` of `supply`, let a process make it (`makes: [KIND, {name}]`), or take it out \
-                 of the goal"
-            ))
-        } else {
-            diagnostic.note(makers.join(", ")).help(format!(
-                "let such a kind get there, add `{name}` to `items` of `supply`, or take it out of the goal"
-            ))
-        };
-    }
-    let ends = open_ends(line, transfers, reached, kind);
-    let diagnostic = diagnostic.note(format!("machines that a `{name}` can get to: {}", listing(&passed)));
-    let diagnostic = match ends.is_empty() {
-        true => diagnostic,
-        false => {
-            let ends: Vec<&str> = ends.iter().map(String::as_str).collect();
-            diagnostic.note(format!(
-                "beyond the end of {} it falls onto neither a conveyor nor a place",
-                listing(&ends)
-            ))
-        }
-    };
-    diagnostic.help(
-        "let a conveyor begin where the one before it ends, or name a sink after these machines in the goal",
-    )
 }

@@ -282,7 +282,7 @@ impl Parts {
         plant.machines.iter_mut().zip(visits).for_each(|(machine, visits)| machine.visits = visits);
         found.diagnostics.extend(overlap::overlaps(&layout, &plant));
         let transfers = transfers(&plant);
-        found.diagnostics.extend(collected::out_of_reach(&scenario, &plant, &edges, &transfers));
+        found.diagnostics.extend(collected::out_of_reach(&scenario, &layout, &plant, &edges, &transfers));
         let comes = collected::comes_onto(&plant, &edges, &transfers);
         found.diagnostics.extend(short::lanes(&layout, &plant, comes));
         if let Some(verdict) = &mut found.verdict {

@@ -19,6 +19,8 @@ enum Whose {
     Own,
     /// Of members of its roles.
     Roles,
+    /// Of those to which a parameter refers, by its number.
+    Parameter(usize),
     /// Of whomever it was told of.
     Anyone,
 }
@@ -44,9 +46,19 @@ impl Writers {
         };
         let writes =
             |instance: usize, of: Whose| self.writes(system, instance, Written { interface, cell, of });
-        (0..system.instances.len())
-            .filter(|i| *i != owner && (writes(*i, Whose::Anyone) || writes(*i, Whose::Roles) && knows(*i)))
-            .collect()
+        let refers = |instance: usize| {
+            let parameters = system.instances[instance].parameters.iter().enumerate();
+            let mut parameters = parameters
+                .filter(|(_, values)| values.contains(&Value::Int(row as i32)))
+                .map(|(number, _)| number);
+            parameters.any(|number| writes(instance, Whose::Parameter(number)))
+        };
+        let may_write = |instance: usize| {
+            writes(instance, Whose::Anyone)
+                || writes(instance, Whose::Roles) && knows(instance)
+                || refers(instance)
+        };
+        (0..system.instances.len()).filter(|i| *i != owner && may_write(*i)).collect()
     }
 
     /// The instances that may change an element of a cell as it is now. Of a lock that is taken, and of a token
@@ -95,12 +107,12 @@ impl Writers {
 fn written(automaton: &Automaton) -> BTreeSet<Written> {
     let cells = targets(automaton).filter_map(|(place, _)| match place {
         Place::Cell { interface, cell, of, .. } => {
-            let of = of.as_ref().map_or(Whose::Own, |of| whose(automaton, of));
-            Some(Written { interface: *interface, cell: *cell, of })
+            let of = of.as_ref().map_or_else(|| vec![Whose::Own], |of| whose(automaton, of));
+            Some(of.into_iter().map(|of| Written { interface: *interface, cell: *cell, of }))
         }
         _ => None,
     });
-    cells.collect()
+    cells.flatten().collect()
 }
 
 /// What is written, with the value if it is one expression.
@@ -110,22 +122,31 @@ fn targets(automaton: &Automaton) -> impl Iterator<Item = (&Place, Option<&Expr>
     updates.filter_map(|update| Some((&update.kind.target()?.place, update.kind.value())))
 }
 
-/// To whom a reference leads: a variable of a guard to a member of a role, as does a local that holds nothing else.
-fn whose(automaton: &Automaton, reference: &Expr) -> Whose {
-    let is_of_role = |expr: &Expr| matches!(expr.kind, ExprKind::Variable(_));
+/// To whom a reference may lead: a variable of a guard to a member of a role, a parameter to what the layout says, and a
+/// local to whatever it is told.
+fn whose(automaton: &Automaton, reference: &Expr) -> Vec<Whose> {
+    let Some(local) = local(reference) else { return vec![directly(reference)] };
+    let values = targets(automaton).filter(|(place, _)| is_local(place, local));
+    let found: Vec<Whose> = values.map(|(_, value)| value.map_or(Whose::Anyone, directly)).collect();
+    if found.is_empty() { vec![Whose::Anyone] } else { found }
+}
+
+fn local(reference: &Expr) -> Option<usize> {
+    match &reference.kind {
+        ExprKind::Read(Place::Local { local, .. }) => Some(*local),
+        _ => None,
+    }
+}
+
+fn is_local(place: &Place, number: usize) -> bool {
+    matches!(place, Place::Local { local, .. } if *local == number)
+}
+
+fn directly(reference: &Expr) -> Whose {
     match &reference.kind {
         ExprKind::Own(_) => Whose::Own,
         ExprKind::Variable(_) => Whose::Roles,
-        ExprKind::Read(Place::Local { local, .. }) => {
-            let mut values = targets(automaton).filter_map(|(place, value)| match place {
-                Place::Local { local: written, .. } if written == local => Some(value),
-                _ => None,
-            });
-            match values.all(|value| value.is_some_and(is_of_role)) {
-                true => Whose::Roles,
-                false => Whose::Anyone,
-            }
-        }
+        ExprKind::Read(Place::Parameter { parameter, .. }) => Whose::Parameter(*parameter),
         _ => Whose::Anyone,
     }
 }

@@ -1,7 +1,7 @@
 //! All bodies of one machine or obstacle, and how they move from now on.
 
 mod boxes;
-mod extent;
+pub(super) mod extent;
 mod follow;
 mod parts;
 mod prints;

@@ -17,6 +17,7 @@ mod group;
 mod movement;
 mod pair;
 mod paths;
+pub mod range;
 mod standing;
 mod sweep;
 

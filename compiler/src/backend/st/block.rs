@@ -122,7 +122,10 @@ pub fn steps<'a>(shared: Shared, id: AutomatonId, index: &Index) -> Block<'a> {
     variables.extend(locals(shared, id, &lowering.temporaries, &used));
     let (inputs, arguments) = inputs(candidates, &used);
     let mut comments = automaton.doc.clone();
-    comments.push(format!("On the device {}: {}", automaton.device.name, automaton.device.purpose));
+    let device = &automaton.device;
+    if !device.purpose.is_empty() {
+        comments.push(format!("On the device {}: {}", device.name, device.purpose));
+    }
     Block {
         unit: Unit {
             name: own.block.clone(),

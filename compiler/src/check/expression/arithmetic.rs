@@ -1,10 +1,12 @@
 //! Operators: their types, and the bounds of what they compute.
 
+mod times;
+
 use super::{binary, constant, to_real, unit_help};
 use crate::check::context::Context;
 use crate::check::facts::{self, Interval};
 use crate::diagnostic::Diagnostic;
-use crate::ir::{self, Expr, ExprKind, Place, Scalar, Value};
+use crate::ir::{Expr, ExprKind, Scalar, Value};
 use crate::source::Span;
 use crate::spec::ast::{self, Operator};
 use crate::spec::written;
@@ -168,9 +170,15 @@ impl Context<'_, '_> {
             (Scalar::Point, Scalar::Point, Operator::Add | Operator::Subtract) => {
                 Some(binary(operator, Scalar::Point, a, b))
             }
-            (Scalar::Time, Scalar::Int { lo, .. }, Operator::Multiply) => self.time_product(a, b, lo, span),
-            (Scalar::Int { lo, .. }, Scalar::Time, Operator::Multiply) => self.time_product(b, a, lo, span),
-            (Scalar::Time, Scalar::Time, Operator::Add) => self.time_sum(a, b, span),
+            (Scalar::Time, Scalar::Int { .. }, Operator::Multiply) => {
+                self.time_product((a, left.span), (b, right.span), span)
+            }
+            (Scalar::Int { .. }, Scalar::Time, Operator::Multiply) => {
+                self.time_product((b, right.span), (a, left.span), span)
+            }
+            (Scalar::Time, Scalar::Time, Operator::Add) => {
+                self.time_sum((a, left.span), (b, right.span), span)
+            }
             (a, b, _) => {
                 let help = match (a, b, operator) {
                     (Scalar::Time, Scalar::Int { .. } | Scalar::Real, Operator::Add) => unit_help(right),
@@ -185,64 +193,6 @@ impl Context<'_, '_> {
                 None
             }
         }
-    }
-
-    fn time_sum(&mut self, a: Expr, b: Expr, span: Span) -> Option<Expr> {
-        let (x, y) = (self.facts.of(&a), self.facts.of(&b));
-        self.time_fits(x.hi + y.hi, [&a, &b], span)?;
-        Some(binary(ir::Operator::Add, Scalar::Time, a, b))
-    }
-
-    fn time_product(&mut self, time: Expr, factor: Expr, lo: i32, span: Span) -> Option<Expr> {
-        if lo < 0 {
-            self.report(
-                Diagnostic::new("E0316", span, "this time could be negative")
-                    .help("multiply by a number that is 0 or more"),
-            );
-            return None;
-        }
-        let (x, y) = (self.facts.of(&time), self.facts.of(&factor));
-        self.time_fits(x.hi * y.hi, [&time, &factor], span)?;
-        Some(binary(ir::Operator::Multiply, Scalar::Time, time, factor))
-    }
-
-    /// Times are counted in milliseconds, of 32 bits.
-    fn time_fits(&mut self, most_ms: f64, of: [&Expr; 2], span: Span) -> Option<()> {
-        if most_ms <= f64::from(i32::MAX) {
-            return Some(());
-        }
-        let parameter = of.into_iter().find_map(|part| self.unbounded_parameter(part));
-        let help = match parameter {
-            Some(name) => format!("bound the parameter: `require {name} <= 60 min else \"{name} is over an hour\";`"),
-            None => "bound its operands: compare them in the guard, such as `t <= 60 min`, or write `min(t, 60 min)`".into(),
-        };
-        let label = match most_ms < f64::from(i32::MAX) * 2.0 {
-            true => "one of the two may have the greatest value of a time".to_string(),
-            false => "its derived bounds allow a longer time".to_string(),
-        };
-        self.report(
-            Diagnostic::new(
-                "E0316",
-                span,
-                "this time is not proved to stay below 2147483648 ms, about 24 days",
-            )
-            .label(label)
-            .help(help),
-        );
-        None
-    }
-
-    /// The name of a time that is a parameter, of which nothing bounds it.
-    fn unbounded_parameter(&self, expr: &Expr) -> Option<String> {
-        if expr.ty == Scalar::Time && self.facts.of(expr).hi >= f64::from(i32::MAX) {
-            match &expr.kind {
-                ExprKind::Read(Place::Parameter { parameter, .. }) => {
-                    return Some(self.automaton.parameters[*parameter].name.clone());
-                }
-                _ => return expr.parts().into_iter().find_map(|part| self.unbounded_parameter(part)),
-            }
-        }
-        None
     }
 
     fn prove_divisor(&mut self, divisor: &Expr, span: Span) -> Option<()> {
