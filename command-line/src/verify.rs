@@ -110,7 +110,7 @@ pub fn run(options: &VerifyOptions) -> Status {
             return Status::WrongCommand;
         }
     }
-    let never = report::never_entered(&teller, &found);
+    let never = report::Unreached::new(&teller, &found);
     let report = Report {
         options,
         teller: &teller,

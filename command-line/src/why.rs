@@ -334,7 +334,7 @@ fn await_json(picture: &Picture, awaited: &Await) -> Value {
             json!({ "machine": picture.machines[*other].name, "reads": read_json(read) })
         }
         Await::Command { text } => json!({ "command": text }),
-        Await::Time { text, left_ms } => json!({ "time": text, "left_s": *left_ms as f64 / 1000.0 }),
+        Await::Time { text, left_ms, .. } => json!({ "time": text, "left_s": *left_ms as f64 / 1000.0 }),
         Await::Input(read) => json!({ "input": read_json(read) }),
         Await::Own(read) => json!({ "own": read_json(read) }),
     }

@@ -61,6 +61,8 @@ mod tests_apart;
 mod tests_of_users;
 #[path = "command_line/trajectories.rs"]
 mod trajectories;
+#[path = "command_line/unreached.rs"]
+mod unreached;
 #[path = "command_line/why.rs"]
 mod why;
 

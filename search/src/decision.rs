@@ -3,6 +3,7 @@
 
 use crate::model::Model;
 use crate::program::{Instance, Int};
+use crate::property::Always;
 use crate::scan::Scan;
 use crate::value::{Count, Var};
 
@@ -67,10 +68,18 @@ struct Node {
 }
 
 struct Outcome {
-    /// Of a state, which fires; 0 of a property.
+    /// Of a state, which fires; of an `invariant`, one of [`Kept`]; 0 of another property.
     transition: usize,
     /// What its binders have chosen.
     variables: Box<[i32]>,
+}
+
+/// Why an `invariant` holds.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kept {
+    Holds,
+    /// Nothing but its excuse was asked.
+    Excused,
 }
 
 impl Decisions {
@@ -181,6 +190,22 @@ impl Scan<'_> {
     pub(crate) fn decide_condition(&mut self, instance: usize, property: usize, condition: &Int) -> bool {
         let root = self.decisions.begins.get(instance).map(|[_, properties]| properties + property);
         self.look_up(root, 0, |scan| scan.holds(condition).then_some(0)).is_some()
+    }
+
+    /// None: it does not hold.
+    pub(crate) fn decide_always(
+        &mut self,
+        instance: usize,
+        property: usize,
+        always: &Always,
+    ) -> Option<Kept> {
+        let root = self.decisions.begins.get(instance).map(|[_, properties]| properties + property);
+        let found = self.look_up(root, 0, |scan| {
+            let is_excused = always.excuse.as_ref().is_some_and(|excuse| scan.holds(excuse));
+            let kept = if is_excused { Kept::Excused } else { Kept::Holds };
+            (is_excused || scan.holds(&always.condition)).then_some(kept as usize)
+        });
+        found.map(|kept| if kept == Kept::Excused as usize { Kept::Excused } else { Kept::Holds })
     }
 
     /// The outcome, of which the first variables are a part.

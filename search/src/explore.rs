@@ -13,6 +13,7 @@ use crate::cut::{Because, Cut};
 use crate::event::Event;
 use crate::expanded::{self, Expanded, Step};
 use crate::model::Model;
+use crate::occurred::Occurred;
 use crate::plant::Faults;
 use crate::possible::{Allowance, AnswersArePostponed, Edges, Mark, Possible};
 use crate::postponed::{Postponing, is_possible};
@@ -447,6 +448,8 @@ fn attempt(
     }
     let end = cut.unwrap_or(End::Complete);
     search.measure();
+    let mut occurred = Occurred::new(model);
+    search.all_expanders().for_each(|expander| occurred.add(&expander.occurred));
     let Search {
         begin,
         mut first,
@@ -525,6 +528,7 @@ fn attempt(
         values,
         unread,
         entered,
+        occurred,
     };
     match is_decided {
         true => Ok(outcome),

@@ -13,6 +13,7 @@ pub mod explore;
 mod footprint;
 mod hazard;
 pub mod model;
+pub mod occurred;
 mod order;
 pub mod plant;
 mod possible;

@@ -268,6 +268,7 @@ impl Expander<'_> {
             not_passed: i32::MAX,
             noted: &mut self.noted,
             remarked: &mut self.remarked,
+            occurred: &mut self.occurred,
             story: self.tell.then_some(told),
         };
         let result = work(&mut scan);

@@ -7,6 +7,7 @@
 
 use crate::event::{self, Event, What, machines_of};
 use crate::model::{Model, Reductions};
+use crate::occurred::Occurred;
 use crate::plant::{Machine, Watch};
 use crate::program::{Cells, bit, members};
 use crate::property::Check;
@@ -242,9 +243,12 @@ impl Expander<'_> {
         let foreign = std::mem::take(&mut self.postponing.machines[machine].foreign);
         let watched = std::mem::replace(&mut self.postponed.watched, foreign);
         let (noted, remarked) = (self.noted.len(), self.remarked.len());
+        let fresh = Occurred { is_noted: true, ..Occurred::new(self.model) };
+        let occurred = std::mem::replace(&mut self.occurred, fresh);
         let mut scan = self.begin();
         let result = scan.run_alone(machine);
         let (observed, given) = (scan.observed, scan.given);
+        let occurred_alone = std::mem::replace(&mut self.occurred, occurred);
         let says_more = self.noted.len() > noted || self.remarked.len() > remarked;
         self.noted.truncate(noted);
         self.remarked.truncate(remarked);
@@ -254,6 +258,9 @@ impl Expander<'_> {
             && self.choices.is_empty()
             && !says_more
             && self.values.count() == count;
+        if is_quiet {
+            self.occurred.add(&occurred_alone);
+        }
         let foreign = &self.postponing.machines[machine].foreign;
         let stays_within = (0..state.len()).all(|at| foreign[at] == 0 || self.work[at] == state[at]);
         (is_quiet && stays_within).then_some(given != 0)

@@ -1,5 +1,6 @@
 //! What types promise: it is checked after the steps of each scan.
 
+use crate::decision::Kept;
 use crate::program::{Cells, Instance, Int, PointValue, Real, bit};
 use crate::scan::Scan;
 use crate::value::{Point, Var};
@@ -20,7 +21,7 @@ pub struct Property {
 
 #[derive(Clone, Debug)]
 pub enum Check {
-    Always(Int),
+    Always(Always),
     Keep(Keep),
     Whenever(Whenever),
 }
@@ -34,6 +35,13 @@ pub enum Effect {
     StopsMachine,
     /// It stops nothing.
     Warns,
+}
+
+#[derive(Clone, Debug)]
+pub struct Always {
+    pub condition: Int,
+    /// Of `not a or b` it is `not a`: where it holds, nothing else is asked.
+    pub excuse: Option<Int>,
 }
 
 /// Values that stay as they are while a condition holds.
@@ -133,13 +141,28 @@ impl Scan<'_> {
     fn is_violated(&mut self, instance: usize, property: usize, stands: bool) -> bool {
         let program = &self.model.instances[instance];
         match &program.properties[property].check {
-            Check::Always(condition) => !self.decide_condition(instance, property, condition),
+            Check::Always(always) => {
+                let kept = self.decide_always(instance, property, always);
+                if kept != Some(Kept::Excused) {
+                    self.occurred.test(instance, property);
+                }
+                kept.is_none()
+            }
             Check::Keep(keep) => match &keep.memory {
                 None => !stands && self.has_changed(instance, property, keep),
-                Some(memory) => self.has_changed_since(keep, memory, stands),
+                Some(memory) => {
+                    let has_changed = self.has_changed_since(keep, memory, stands);
+                    if memory.held.load(self.bytes) != 0 {
+                        self.occurred.test(instance, property);
+                    }
+                    has_changed
+                }
             },
             Check::Whenever(whenever) => {
                 let waits = !stands && self.has_to_wait(program, whenever);
+                if waits {
+                    self.occurred.test(instance, property);
+                }
                 let is_told = whenever.is_told && self.holds(&whenever.trigger);
                 whenever.waits.store(self.bytes, i32::from(waits && !is_told));
                 false
@@ -150,9 +173,14 @@ impl Scan<'_> {
     fn has_changed(&mut self, instance: usize, property: usize, keep: &Keep) -> bool {
         // In the beginning nothing has been checked.
         let is_first = self.model.instances[instance].state.load(self.before) == 0;
-        if is_first || !self.decide_condition(instance, property, &keep.condition) {
+        if is_first {
+            self.test_first(instance, property, &keep.condition);
             return false;
         }
+        if !self.decide_condition(instance, property, &keep.condition) {
+            return false;
+        }
+        self.occurred.test(instance, property);
         self.swap();
         let held = self.decide_condition(instance, property, &keep.condition);
         self.swap();
@@ -163,6 +191,17 @@ impl Scan<'_> {
             self.swap();
             now != before
         })
+    }
+
+    /// The condition of a `keep` may hold from the first scan on, and nothing that it reads change any more. What is forgotten
+    /// then has its right value, and nobody needs what is postponed for this.
+    fn test_first(&mut self, instance: usize, property: usize, condition: &Int) {
+        let (needed, observed) = (self.needed.len(), self.observed);
+        if self.holds(condition) {
+            self.occurred.test(instance, property);
+        }
+        self.needed.truncate(needed);
+        self.observed = observed;
     }
 
     fn has_changed_since(&mut self, keep: &Keep, memory: &Memory, stands: bool) -> bool {
@@ -237,6 +276,14 @@ impl Scan<'_> {
 }
 
 impl Property {
+    /// Whether it asks for nothing as long as a condition does not hold.
+    pub fn is_conditional(&self) -> bool {
+        match &self.check {
+            Check::Always(always) => always.excuse.is_some(),
+            Check::Keep(_) | Check::Whenever(_) => true,
+        }
+    }
+
     /// What any of these reads; none if one of them is due in each scan.
     pub fn reads_of_all(properties: &[Self]) -> Option<Cells> {
         let all = |reads, property: &Self| (!property.is_due_always()).then_some(reads | property.reads);

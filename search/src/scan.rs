@@ -3,6 +3,7 @@
 use crate::choice::Choices;
 use crate::decision::{Decisions, Question};
 use crate::model::{Model, Reductions};
+use crate::occurred::Occurred;
 use crate::plant::status;
 use crate::postponed::{Postponed, Postponing};
 use crate::program::{
@@ -53,6 +54,7 @@ pub struct Scan<'a> {
     pub(crate) noted: &'a mut Vec<Violation>,
     /// What is hardly meant.
     pub(crate) remarked: &'a mut Vec<Violation>,
+    pub(crate) occurred: &'a mut Occurred,
     pub(crate) story: Option<&'a mut Told>,
 }
 
@@ -420,6 +422,7 @@ impl Scan<'_> {
                 }
             }
         }
+        self.occurred.give(instance, command.command);
         let before = self.model.machines[instance].head.as_ref().map(|head| head.status.load(self.bytes));
         self.begin(instance, command.command, &places, before == Some(status::UNDER_WAY));
         Ok(())

@@ -57,8 +57,10 @@ impl Expander<'_> {
             self.postponed.observed |= observed;
             return found.clone();
         }
+        let is_noted = std::mem::replace(&mut self.occurred.is_noted, false);
         let (found, read) = self.behind_stop(&key.0);
         let observed = self.observed_behind(&key.0, &found, read);
+        self.occurred.is_noted = is_noted;
         self.postponed.observed |= observed;
         self.stops.insert(key, (found.clone(), observed));
         found

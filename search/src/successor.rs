@@ -6,6 +6,7 @@ use crate::decision::Decisions;
 use crate::event::{self, Event};
 use crate::footprint::{Footprint, footprints};
 use crate::model::{Model, Reductions};
+use crate::occurred::Occurred;
 use crate::plant::{Faults, Input, sight};
 use crate::postponed::{Postponed, Postponing};
 use crate::program::{Cells, Instance, bit};
@@ -60,6 +61,8 @@ pub struct Expander<'a> {
     pub(crate) work: Vec<u8>,
     pub(crate) noted: Vec<Violation>,
     pub(crate) remarked: Vec<Violation>,
+    /// In all that was expanded.
+    pub(crate) occurred: Occurred,
     pub(crate) chosen: Vec<Event>,
     restless: u64,
     /// How many of the chosen events are faults.
@@ -155,6 +158,7 @@ impl<'a> Expander<'a> {
             work: vec![0; model.initial.len()],
             noted: Vec::new(),
             remarked: Vec::new(),
+            occurred: Occurred::new(model),
             chosen: Vec::new(),
             restless: 0,
             faults: 0,
@@ -267,6 +271,7 @@ impl<'a> Expander<'a> {
     /// All that devices may do before the scan, and again with what turns out not to be postponed.
     fn answers_of(&mut self, part: Part, options: &mut [Vec<Choice>], emit: &mut impl FnMut(Successor)) {
         self.part = part;
+        self.occurred.is_noted = true;
         self.answer(options, 0, 0, emit);
         loop {
             let needed = self.postponed.observed & (self.postponed.waiting | self.postponed.idle);
@@ -281,6 +286,7 @@ impl<'a> Expander<'a> {
             self.answer(options, 0, 0, emit);
             self.postponed.fresh = 0;
         }
+        self.occurred.is_noted = false;
     }
 
     /// Whether there is something postponed of which nobody has needed it so far.
@@ -362,6 +368,7 @@ impl<'a> Expander<'a> {
             not_passed: i32::MAX,
             noted: &mut self.noted,
             remarked: &mut self.remarked,
+            occurred: &mut self.occurred,
             story: self.tell.then_some(&mut self.told),
         }
     }
@@ -389,7 +396,11 @@ impl<'a> Expander<'a> {
         };
         self.answer(rest, level, touched, emit);
         for Choice { event, is_fault, is_guess } in choices {
-            if self.part == Part::Calm && *is_fault || self.can_wait(*event) {
+            if self.part == Part::Calm && *is_fault {
+                continue;
+            }
+            self.occurred.event(self.model, &self.levels[level], *event);
+            if self.can_wait(*event) {
                 continue;
             }
             let (before, after) = self.levels.split_at_mut(level + 1);

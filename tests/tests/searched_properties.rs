@@ -125,6 +125,33 @@ fn what_is_hardly_meant_is_noticed() {
     }
 }
 
+/// What a file expects never to happen stands behind `//~`: what devices never do, then the properties.
+#[test]
+fn what_never_happens_is_told() {
+    for (name, text) in fixtures("verify/unreached", "aut") {
+        let outcome = of_text(&text).compile();
+        let project = outcome.project.as_ref().unwrap_or_else(|| {
+            panic!("{name}: {}", autogen_tests::plain(&outcome.sources, &outcome.diagnostics))
+        });
+        let expected: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("//~ ")).collect();
+        for (answers, orders, jobs) in [
+            (None, Orders::One, 1),
+            (Some(1), Orders::One, 2),
+            (None, Orders::All, 1),
+            (None, Orders::One, 5),
+        ] {
+            let asked = Asked { warnings: Warnings::Own(&outcome.sources), ..Asked::with(Faults::All) };
+            let model = model(project, &asked).expect("a line that can be searched").model;
+            let teller = Teller { project, model: &model, sources: &outcome.sources };
+            let found = explore(&model, &Bounds { answers, orders, jobs, ..BOUNDS }, &mut |_| true);
+            assert_eq!((found.end, found.violations.len()), (End::Complete, 0), "{name}");
+            let (done, tested) = (teller.never_done(&found.occurred), teller.never_tested(&found.occurred));
+            assert_eq!([done.told(), tested.told()].concat(), expected, "{name}, {answers:?}, {orders:?}");
+            assert!(done.all >= done.number() && tested.all >= tested.number(), "{name}");
+        }
+    }
+}
+
 /// The message that a file expects stands behind `//~`, in the line to which it points.
 #[test]
 fn lines_that_cannot_be_searched_are_refused() {
@@ -169,6 +196,8 @@ fn remembering_everything_changes_no_verdict() {
             let plain = search(Remembered::Least, Reductions::Off);
             assert_eq!(verdict(&least), verdict(&plain), "{name}, {faults:?}, {orders:?}");
             assert_eq!(least.covered.states, plain.covered.states, "{name}, {faults:?}, {orders:?}");
+            assert_eq!(least.occurred, plain.occurred, "{name}, {faults:?}, {orders:?}");
+            assert_eq!(least.occurred, whole.occurred, "{name}, {faults:?}, {orders:?}");
             assert_eq!(verdict(&least), verdict(&whole), "{name}, {faults:?}, {orders:?}");
             assert!(least.covered.states <= whole.covered.states, "{name}, {faults:?}, {orders:?}");
             println!("{name}: {} states, {} with all", least.covered.states, whole.covered.states);

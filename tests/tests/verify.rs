@@ -354,6 +354,9 @@ fn processors_change_nothing() {
             let states = 0..one.reached.len();
             assert!(states.into_iter().all(|s| several.reached.state(s) == one.reached.state(s)));
             assert_eq!(several.values.points(), one.values.points());
+            if one.end == End::Complete {
+                assert_eq!(several.occurred, one.occurred);
+            }
             assert_eq!(format!("{:?}", several.violations), format!("{:?}", one.violations));
         }
     }

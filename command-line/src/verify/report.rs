@@ -1,9 +1,9 @@
 //! What a search has shown, and exactly what not.
 
 use super::super::options::{StepOrders, VerifyOptions, Warnings};
-use autogen::verify::Skipped;
 use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
+use autogen::verify::{Never, Skipped};
 use autogen_search::explore::{Decided, End, Outcome};
 use autogen_search::property::Check;
 use autogen_search::story::Execution;
@@ -23,8 +23,43 @@ pub struct Report<'a> {
     pub skipped: &'a [Skipped],
     /// What [`autogen::verify::under_way::places`] says.
     pub under_way: Vec<String>,
-    /// What [`never_entered`] says.
-    pub never: Vec<(&'a str, Vec<&'a str>)>,
+    pub never: Unreached<'a>,
+}
+
+/// What happens in no execution of a complete search: nothing is proved of it.
+#[derive(Default)]
+pub struct Unreached<'a> {
+    /// Machines with the states that they have in no state that was reached.
+    states: Vec<(&'a str, Vec<&'a str>)>,
+    devices: Never,
+    properties: Never,
+}
+
+impl<'a> Unreached<'a> {
+    /// Nothing, if the search is not complete.
+    pub fn new(teller: &Teller<'a>, outcome: &Outcome) -> Self {
+        if outcome.end != End::Complete {
+            return Self::default();
+        }
+        Self {
+            states: never_entered(teller, outcome),
+            devices: teller.never_done(&outcome.occurred),
+            properties: teller.never_tested(&outcome.occurred),
+        }
+    }
+
+    /// `30 of 60 states of the machines, 1 of 9 actions of devices`
+    fn counted(&self, states: usize) -> String {
+        let entered: usize = self.states.iter().map(|(_, states)| states.len()).sum();
+        let Self { devices, properties, .. } = self;
+        let all = [
+            (entered, states, "states of the machines"),
+            (devices.number(), devices.all, "actions of devices"),
+            (properties.number(), properties.all, "conditions of properties"),
+        ];
+        let all = all.into_iter().filter(|(never, ..)| *never > 0);
+        all.map(|(never, of, what)| format!("{never} of {of} {what}")).collect::<Vec<_>>().join(", ")
+    }
 }
 
 pub struct Shown<'a> {
@@ -127,8 +162,8 @@ impl Report<'_> {
                 self.teller.skipped(skipped)
             ));
         }
-        if !self.never.is_empty() {
-            bounds.push(format!("no state was reached with: {}", named(&self.never)));
+        if !self.never.states.is_empty() {
+            bounds.push(format!("no state was reached with: {}", named(&self.never.states)));
         }
         if let Goal::Collected(_) = plant.scenario.goal {
             bounds.push("whether the goal of items can be reached is not checked".into());
@@ -161,13 +196,11 @@ impl Report<'_> {
 
     /// What a proof says nothing of.
     fn exempt(&self) -> String {
-        let never: usize = self.never.iter().map(|(_, states)| states.len()).sum();
         let system = &self.teller.project.system;
         let all: usize = (0..system.instances.len()).map(|it| system.automaton_of(it).states.len()).sum();
-        match never {
-            0 => String::new(),
-            _ => format!("; {never} of {all} states of the machines were never reached"),
-        }
+        let counted = self.never.counted(all);
+        let joined = if self.outcome.is_proved() { ", but" } else { ";" };
+        if counted.is_empty() { counted } else { format!("{joined} never reached: {counted}") }
     }
 
     /// What the simulator made of it.
@@ -198,6 +231,9 @@ impl Report<'_> {
             if !situation.is_empty() {
                 let _ = writeln!(out, "at that moment\n  {}\n", situation.join("\n  "));
             }
+            if let Some(told) = self.teller.told_without_contract(shown.execution) {
+                let _ = writeln!(out, "without contract   {told}\n");
+            }
             let _ = writeln!(out, "in the simulator   {}\n", self.replayed(shown));
         }
         for (remark, execution) in &self.outcome.remarks {
@@ -205,6 +241,15 @@ impl Report<'_> {
             let _ = writeln!(out, "{}", self.teller.tell(execution));
         }
         let _ = writeln!(out, "{}{}\n", self.verdict(), self.exempt());
+        let Unreached { devices, properties, .. } = &self.never;
+        let never = [devices.told(), properties.told()].concat();
+        if !never.is_empty() {
+            let _ = writeln!(out, "never reached, so nothing is proved of it");
+            never.iter().for_each(|never| {
+                let _ = writeln!(out, "  {never}");
+            });
+            out += "\n";
+        }
         for bound in self.bounds() {
             let _ = writeln!(out, "  {bound}");
         }
@@ -237,6 +282,7 @@ impl Report<'_> {
                     "violation": self.teller.title(shown.violation),
                     "story": self.teller.tell(shown.execution).lines().collect::<Vec<_>>(),
                     "at_that_moment": self.teller.situation(shown.execution),
+                    "without_contract": self.teller.without_contract(shown.execution),
                     "simulator": self.replayed(shown),
                 })
             })
@@ -250,12 +296,16 @@ impl Report<'_> {
             })
             .collect();
         let never: Map<String, Value> =
-            self.never.iter().map(|(machine, states)| (machine.to_string(), json!(states))).collect();
+            self.never.states.iter().map(|(machine, states)| (machine.to_string(), json!(states))).collect();
         json!({
             "verdict": self.verdict(),
             "complete": self.cut().is_none(),
             "bounds": self.bounds(),
             "never_reached": never,
+            "never_happens": {
+                "actions": self.never.devices.told(),
+                "conditions": self.never.properties.told(),
+            },
             "violations": violations,
             "remarks": remarks,
             "states": covered.states,
@@ -274,11 +324,7 @@ impl Report<'_> {
 /// Why something is left open.
 const HIDDEN: &str = "items on conveyors without commands, cylinders, positioners and tracks are not known";
 
-/// Machines with the states that they have in no reached state of a complete search.
-pub fn never_entered<'a>(teller: &Teller<'a>, outcome: &Outcome) -> Vec<(&'a str, Vec<&'a str>)> {
-    if outcome.end != End::Complete {
-        return Vec::new();
-    }
+fn never_entered<'a>(teller: &Teller<'a>, outcome: &Outcome) -> Vec<(&'a str, Vec<&'a str>)> {
     let (system, instances) = (&teller.project.system, &teller.model.instances);
     let states = |number: usize| &system.automaton_of(number).states;
     let mut entered: Vec<Vec<bool>> =

@@ -56,6 +56,14 @@ impl Executor<'_> {
         }
     }
 
+    /// The same, if the state had lasted for so many ms.
+    pub(crate) fn guard_holds_after(&mut self, robot: usize, clauses: &[Clause], ms: i32) -> bool {
+        let elapsed = std::mem::replace(&mut self.robots[robot].elapsed, ms);
+        let holds = self.guard_holds(robot, clauses);
+        self.robots[robot].elapsed = elapsed;
+        holds
+    }
+
     fn choose_candidate(&mut self, robot: usize, binder: &Binder, rest: &[Clause]) -> bool {
         let mut best: Option<(Value, Vec<Value>)> = None;
         for candidate in self.candidates(robot, &binder.domain) {

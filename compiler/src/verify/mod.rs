@@ -2,12 +2,14 @@
 
 mod asked;
 mod automaton;
+mod contract;
 mod expression;
 mod followed;
 pub mod gantt;
 mod live;
 mod memory;
 mod model;
+mod never;
 mod plant;
 mod properties;
 mod put_out;
@@ -22,4 +24,5 @@ mod unsearched;
 
 pub use asked::{Asked, Remembered, Warnings};
 pub use model::{Searched, model};
+pub use never::Never;
 pub use properties::Skipped;

@@ -3,10 +3,10 @@
 use super::automaton::Instance;
 use super::memory::{Memory, kept};
 use super::{Asked, Remembered, Warnings};
-use crate::ir::{self, Automaton, Expr, ExprKind, Place, PropertyKind, Scalar, Severity, Value};
+use crate::ir::{self, Automaton, Expr, ExprKind, Operator, Place, PropertyKind, Scalar, Severity, Value};
 use crate::library;
 use autogen_search::program::Cells;
-use autogen_search::property::{self, Check, Effect, Keep, Property, Whenever};
+use autogen_search::property::{self, Always, Check, Effect, Keep, Property, Whenever};
 
 /// Which properties of a type are searched. Of obligations those are left out whose violation calls the operator, because
 /// that is meant, and `answer` (which alone begins anew): contracts say that every command can be answered.
@@ -39,6 +39,43 @@ pub fn can_stop(automaton: &Automaton, asked: &Asked) -> bool {
     })
 }
 
+/// What an `invariant` denies before it asks for anything: of `not a or not b or c` it is `not a or not b`. If nothing else
+/// follows, all but the first is asked for.
+fn excuse(automaton: &Automaton, condition: &Expr) -> Option<Expr> {
+    match &condition.kind {
+        ExprKind::Define(define) => excuse(automaton, &automaton.defines[*define].value),
+        ExprKind::Forall { variable, domain, body } => {
+            let body = Box::new(excuse(automaton, body)?);
+            let kind = ExprKind::Forall { variable: *variable, domain: domain.clone(), body };
+            Some(Expr { ty: condition.ty, kind })
+        }
+        ExprKind::Binary(Operator::Or, ..) => {
+            let parts = alternatives(condition);
+            let denies = |part: &&&Expr| {
+                matches!(part.kind, ExprKind::Not(_) | ExprKind::Binary(Operator::NotEqual, ..))
+            };
+            let denied = parts.iter().take_while(denies).count();
+            let number = if denied == parts.len() { 1 } else { denied };
+            let any = |a: Expr, b: &Expr| Expr {
+                ty: condition.ty,
+                kind: ExprKind::Binary(Operator::Or, Box::new(a), Box::new(b.clone())),
+            };
+            let (first, others) = parts[..number].split_first()?;
+            Some(others.iter().fold((*first).clone(), |all, part| any(all, part)))
+        }
+        _ => None,
+    }
+}
+
+fn alternatives(condition: &Expr) -> Vec<&Expr> {
+    match &condition.kind {
+        ExprKind::Binary(Operator::Or, a, b) => {
+            [a, b].into_iter().flat_map(|part| alternatives(part)).collect()
+        }
+        _ => vec![condition],
+    }
+}
+
 /// A property of an instance that cannot be searched: it reads what no contract describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Skipped {
@@ -61,7 +98,7 @@ impl Instance<'_> {
             let refused = self.refused.len();
             self.begin_anew();
             let check = match &property.kind {
-                PropertyKind::Always(condition) => Check::Always(self.int(condition)),
+                PropertyKind::Always(condition) => Check::Always(self.always(condition)),
                 PropertyKind::Keep { condition, values, .. } => {
                     self.keep(condition, values.iter().map(|kept| &kept.value), asked, memory)
                 }
@@ -98,6 +135,15 @@ impl Instance<'_> {
         self.sees_what_is_put_out = false;
         found.sort_by_key(|property| property.effect != Effect::StopsMachine);
         found
+    }
+
+    fn always(&mut self, condition: &Expr) -> Always {
+        let whole = self.int(condition);
+        // It reads nothing else, so it is refused only where this is.
+        let refused = self.refused.len();
+        let excuse = excuse(self.automaton, condition).map(|excuse| self.int(&excuse));
+        self.refused.truncate(refused);
+        Always { condition: whole, excuse }
     }
 
     fn keep<'a>(

@@ -139,7 +139,7 @@ impl Teller<'_> {
     }
 
     /// `shelf.(key on)`
-    fn input(&self, input: usize) -> &str {
+    pub(super) fn input(&self, input: usize) -> &str {
         let var = self.model.inputs[input].var;
         let found = self.model.variables.iter().find(|variable| variable.var == var);
         found.map_or("an input", |variable| variable.name.trim_end_matches("[0]"))
@@ -175,7 +175,7 @@ impl Teller<'_> {
         fault::reason_of_run(report, &self.project.system, self.sources)
     }
 
-    fn part(&self, machine: usize, part: usize) -> &str {
+    pub(super) fn part(&self, machine: usize, part: usize) -> &str {
         &self.project.plant.machines[machine].parts[part].name
     }
 
@@ -198,7 +198,7 @@ impl Teller<'_> {
     }
 
     /// `kitting.aut:43:5`
-    fn place(&self, span: Span) -> String {
+    pub(super) fn place(&self, span: Span) -> String {
         let (line, column) = self.sources.position(span);
         format!("{}:{line}:{column}", self.sources.file(span.file).name)
     }

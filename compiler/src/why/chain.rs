@@ -20,12 +20,12 @@ impl<'p> Waits<'p> {
         &self.picture.machines[machine]
     }
 
-    /// It continues without the others: a guard holds, time passes, or its device is at work.
+    /// It continues without the others: a guard holds, nothing but time has to pass, or its device is at work.
     fn goes_on(&self, machine: usize) -> bool {
         let Machine { transitions, awaits, .. } = self.machine(machine);
         transitions.iter().any(|transition| transition.holds)
             || awaits.iter().any(|awaited| match awaited {
-                Await::Time { .. } => true,
+                Await::Time { suffices, .. } => *suffices,
                 Await::Command { .. } => !self.is_stalled,
                 Await::Machine(..) | Await::Input(_) | Await::Own(_) => false,
             })

@@ -17,8 +17,16 @@ const MOST_NODES: usize = 500;
 pub fn picture(watch: &mut Watch, scan: u64) -> Picture {
     let writers = Writers::new(watch.system);
     let machines = (0..watch.system.instances.len()).map(|robot| {
-        let mut look =
-            Look { watch, writers: &writers, robot, scan, awaits: Vec::new(), nodes: 0, seen_by: None };
+        let mut look = Look {
+            watch,
+            writers: &writers,
+            robot,
+            scan,
+            clauses: &[],
+            awaits: Vec::new(),
+            nodes: 0,
+            seen_by: None,
+        };
         look.machine()
     });
     let machines = machines.collect();
@@ -42,6 +50,8 @@ pub(super) struct Look<'w, 'a> {
     pub(super) writers: &'w Writers,
     pub(super) robot: usize,
     pub(super) scan: u64,
+    /// The guard that is taken apart.
+    pub(super) clauses: &'a [Clause],
     pub(super) awaits: Vec<Await>,
     nodes: usize,
     /// Outputs are as the properties of this severity have seen them.
@@ -80,6 +90,7 @@ impl<'a> Look<'_, 'a> {
             let saved = self.watch.executor.variables(robot);
             let holds = self.watch.executor.guard_holds(robot, &transition.clauses);
             self.watch.executor.restore(robot, saved);
+            self.clauses = &transition.clauses;
             Tested {
                 title: transition.title(),
                 target: transition.target.map(|target| automaton.states[target.0].name.clone()),

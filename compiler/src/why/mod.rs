@@ -139,8 +139,8 @@ pub enum Await {
     Machine(usize, Read),
     /// That the device ends a command.
     Command { text: String },
-    /// That time passes.
-    Time { text: String, left_ms: u64 },
+    /// That time passes; and whether that is enough for a guard to hold, as all else is now.
+    Time { text: String, left_ms: u64, suffices: bool },
     /// That the device changes an input.
     Input(Read),
     /// That the machine itself changes a cell, which it does in other states.

@@ -30,6 +30,18 @@ impl<'a> Look<'_, 'a> {
         }
     }
 
+    /// The same time may be enough for one guard, and not for another one.
+    fn awaits_time(&mut self, holds: bool, text: String, left_ms: u64, is_enough: bool) {
+        let known = self.awaits.iter_mut().find_map(|awaited| match awaited {
+            Await::Time { text: other, suffices, .. } if *other == text => Some(suffices),
+            _ => None,
+        });
+        match known {
+            Some(suffices) => *suffices |= is_enough && !holds,
+            None => self.awaits(holds, Await::Time { text, left_ms, suffices: is_enough }),
+        }
+    }
+
     fn collect(&mut self, expr: &'a Expr, holds: bool, found: &mut Vec<Read>) {
         if found.len() > MOST_AWAITED {
             return;
@@ -45,7 +57,10 @@ impl<'a> Look<'_, 'a> {
                 {
                     let left_ms = (wanted - stay) as u64;
                     let text = self.words().expr(expr);
-                    self.awaits(holds, Await::Time { text, left_ms });
+                    let saved = self.watch.executor.variables(self.robot);
+                    let suffices = self.watch.executor.guard_holds_after(self.robot, self.clauses, wanted);
+                    self.watch.executor.restore(self.robot, saved);
+                    self.awaits_time(holds, text, left_ms, suffices);
                 }
                 let value = format!("{} s", f64::from(stay) / 1000.0);
                 found.push(Read { name: STAY.into(), value, set: None, changed: None, writers: vec![] });

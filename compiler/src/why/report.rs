@@ -165,7 +165,7 @@ fn alone(machine: &Machine) -> String {
         match one {
             Await::Machine(..) => {}
             Await::Command { text } => awaited.push(text.clone()),
-            Await::Time { text, left_ms } => awaited.push(format!("`{text}`, in {}", seconds(*left_ms))),
+            Await::Time { text, left_ms, .. } => awaited.push(format!("`{text}`, in {}", seconds(*left_ms))),
             Await::Own(read) => awaited.push(format!("itself: {}", value_text(read))),
             Await::Input(read) => inputs.push(value_text(read)),
         }

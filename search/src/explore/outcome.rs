@@ -1,5 +1,6 @@
 //! How far a search goes, and what it tells.
 
+use crate::occurred::Occurred;
 use crate::reached::Reached;
 use crate::refinement::Refinement;
 use crate::story::Execution;
@@ -92,6 +93,7 @@ pub struct Outcome {
     /// Instances, and states of theirs that no state that was reached has to have: answers that are postponed bring them
     /// there, or a scan ends there in a stop or a violation.
     pub entered: BTreeSet<(usize, usize)>,
+    pub occurred: Occurred,
 }
 
 /// Why a search begins anew.

@@ -18,6 +18,7 @@ struct Page<'a> {
     plan: &'a str,
     story: &'a str,
     situation: &'a [String],
+    without_contract: Option<String>,
 }
 
 /// `simulator` is what that did instead.
@@ -36,6 +37,7 @@ pub fn html(
         plan: &plan::svg(&project.plant, &project.edges),
         story: &teller.tell(execution),
         situation: &teller.situation(execution),
+        without_contract: teller.told_without_contract(execution),
     };
     // Writing to memory does not fail.
     page.render().unwrap_or_default()
