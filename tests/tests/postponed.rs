@@ -156,13 +156,19 @@ fn line_of(text: &str) -> (Texts, Faults) {
         format!(r#"{{"name": "v{number}", "type": "{of}", {place}}}"#)
     };
     let last = if types.clone().any(|of| of == "feed") { None } else { Some("feed") };
+    let arm = types.clone().position(|of| matches!(of, "over" | "across"));
     let robots: Vec<String> = types.chain(last).enumerate().map(robot).collect();
     let desk = if after(NO_WAY_OUT).is_some() { "idle" } else { "desk" };
     let layout = format!(
         r#"{{"robots": [{}, {{"name": "desk", "type": "{desk}", "pose": [-5, 0, 0]}}]}}"#,
         robots.join(", ")
     );
-    let scenario = ONE_PART.replace("as1", after("// order: ").unwrap_or("desk"));
+    let mut scenario = ONE_PART.replace("as1", after("// order: ").unwrap_or("desk"));
+    // Nothing brings parts to the desk. In a line with an arm that is an error, unless parts may slip.
+    if let Some(arm) = arm {
+        let slip = format!(r#""faults": {{"slips": [{{"robot": "v{arm}", "pick": 1, "after_s": 1}}]}}"#);
+        scenario = scenario.replacen('{', &format!("{{{slip}, "), 1);
+    }
     let specs = vec![OTHERS.to_string(), text.to_string()];
     let texts = Texts { specs, scenario: Some(scenario), ..Texts::of_layout(layout) };
     (texts, if after("// faults").is_some() { Faults::All } else { Faults::None })

@@ -50,8 +50,10 @@ pub fn out_of_reach(
             found.extend(missed.map(|kind| missing.diagnostic(kind, &asked)));
         }
     }
+    // Without arms it is a part of a line: who brings the items is not there.
+    let has_arms = (0..line.machines.len()).any(|machine| has_grip(line, machine));
     let mut told: HashSet<(usize, usize)> = HashSet::new();
-    for order in &line.scenario.orders {
+    for order in line.scenario.orders.iter().filter(|_| has_arms) {
         let gets = |kind: usize| {
             order.stations.iter().any(|station| reached.contains(&(Spot::Machine(*station), kind)))
         };
