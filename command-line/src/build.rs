@@ -3,13 +3,13 @@
 use super::copies::{Copies, copies};
 use super::options::{Addresses, BuildCommandOptions, BuildOptions, Format};
 use super::output::{self, Make, Output, Overwrite, Refusal};
+use super::titles::{shown, title};
 use super::{differences, dropped, io_error, load, print, read};
 use crate::Status;
 use autogen::backend::{Files, Folder, Sink, dot, plan, rust, sdf, st};
 use autogen::diagnostic::Diagnostic;
 use autogen::io_map::{self, Conversion, Counting, IoMap, Point};
 use autogen::ir::System;
-use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
 use autogen::parallel::in_parts;
 use autogen::plain;
@@ -18,9 +18,8 @@ use autogen::source::{FileId, Sources};
 use autogen::translation::{self, Translations};
 use autogen::version;
 use serde_json::{Map, Value, json};
-use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// A line that was compiled.
 pub struct Built {
@@ -123,7 +122,10 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
             (with_texts, translations)
         }
     };
-    let Copies { files: copies, command } = copies(options, &with_texts);
+    let Copies { files: copies, command, not_found } = copies(options, &with_texts);
+    if !options.input.quiet {
+        report_not_found(&options.input.layout, &not_found);
+    }
     // The same input gives the same bytes, from whatever folder it is compiled.
     let sources = shown(&sources, &options.input.layout);
     // Other words on a screen make no other program.
@@ -258,49 +260,6 @@ fn io_map(
     io_map::read(sources, table, &st::points(&project.system), counting)
 }
 
-/// The sources under the names that outputs show, all of them different.
-pub fn shown(sources: &Sources, layout: &Path) -> Sources {
-    let mut taken = BTreeSet::new();
-    sources.renamed(|name| {
-        let title = title(layout, name);
-        if name == "--set" {
-            return title;
-        }
-        apart(title, &mut taken)
-    })
-}
-
-/// A name that is free: the wanted one, or one with a number before its extension. Some file systems take names that
-/// differ in case alone for one, and so does this.
-pub fn apart(wanted: String, taken: &mut BTreeSet<String>) -> String {
-    let (stem, extension) = match wanted.rsplit_once('.') {
-        Some((stem, extension)) if !extension.contains('/') => (stem, format!(".{extension}")),
-        _ => (wanted.as_str(), String::new()),
-    };
-    let numbered = (2..).map(|number| format!("{stem} ({number}){extension}"));
-    std::iter::once(wanted.clone())
-        .chain(numbered)
-        .find(|name| taken.insert(name.to_lowercase()))
-        .unwrap_or(wanted)
-}
-
-/// The name of an input as outputs show it: its path from the layout's folder, or its own name.
-pub fn title(layout: &Path, name: &str) -> String {
-    if library::FILES.iter().any(|(built_in, _)| *built_in == name) {
-        return name.to_string();
-    }
-    let path = Path::new(name);
-    let leads_up = |rest: &Path| rest.components().any(|part| part == Component::ParentDir);
-    let within = layout
-        .parent()
-        .and_then(|folder| path.strip_prefix(folder).ok())
-        .filter(|rest| rest.is_relative() && !leads_up(rest));
-    match within {
-        Some(rest) => rest.display().to_string().replace('\\', "/"),
-        None => path.file_name().map_or(name.to_string(), |own| own.to_string_lossy().into_owned()),
-    }
-}
-
 /// Says which addresses a table leaves out.
 fn report_gaps(map: &IoMap, points: &[Point]) {
     say!("{} of {} points have an address", map.len(), points.len());
@@ -312,6 +271,22 @@ fn report_gaps(map: &IoMap, points: &[Point]) {
         let whose = if robot.is_empty() { "the line" } else { robot };
         say!("note: {whose} has points without one: {}", missing.join(", "));
     }
+}
+
+/// Says which of the copies the copy of the layout does not lead to.
+fn report_not_found(layout: &Path, not_found: &[(String, String)]) {
+    let Some((name, copy)) = not_found.first() else { return };
+    let more = match not_found.len() - 1 {
+        0 => String::new(),
+        more => format!(" (and {more} more)"),
+    };
+    complain!(
+        "warning: {}: the layout names `{name}`{more}, whose copy in sources/ is `{copy}`: the name has a character \
+         that not all systems take, leads up by `..`, or differs from another one in case alone. The copy of the \
+         layout does not find it, so `command` in manifest.json does not build the same again. Rename what the layout \
+         names, or give it by --specs or --scenario instead.",
+        layout.display()
+    );
 }
 
 /// Says which texts a table leaves out, and which of its rows are of no text.

@@ -55,6 +55,7 @@ mod results;
 mod schema;
 mod sweep;
 mod test;
+mod titles;
 mod trajectories;
 mod verify;
 mod why;

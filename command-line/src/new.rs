@@ -38,7 +38,7 @@ pub fn run(options: &NewOptions) -> Status {
 
 /// A path as a shell takes it.
 fn quoted(path: &Path) -> String {
-    copies::quoted(&path.display().to_string())
+    copies::quoted(&copies::argument(path.display().to_string()))
 }
 
 /// Nothing is written over: the folder is new, or empty.

@@ -5,6 +5,7 @@
 
 use crate::csv::{self, Field};
 use crate::diagnostic::{self, Diagnostic};
+use crate::plain;
 use crate::source::{FileId, Sources, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -87,13 +88,18 @@ pub fn read(
             }
             for ((_, column), language) in columns.iter().zip(&mut translations.languages) {
                 if let Some(field) = record.get(*column).filter(|field| !field.text.is_empty()) {
-                    language.texts.insert(text.text.clone(), field.text.clone());
+                    language.texts.insert(text.text.clone(), shown(&field.text));
                 }
             }
         }
     }
     diagnostic::sort(&mut found);
     if found.is_empty() { Ok(translations) } else { Err(found) }
+}
+
+/// As it may be in a table, on as many lines as it has.
+fn shown(text: &str) -> String {
+    plain::lines(&text.replace("\r\n", "\n").replace('\r', "\n")).into_owned()
 }
 
 /// Where the texts are, and the languages with their columns.

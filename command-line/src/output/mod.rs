@@ -8,7 +8,7 @@ mod present;
 mod transaction;
 
 pub use comparison::{Comparison, Difference, Kind, compare};
-pub use manifest::{MANIFEST, hash, is_within};
+pub use manifest::{MANIFEST, hash};
 
 use super::lock::Lock;
 use autogen::backend::{Files, Sink};

@@ -1,10 +1,10 @@
 //! What a sweep runs: its layouts, read and checked, and the runs of its design, none of them written out.
 
-use super::super::build;
 use super::super::commission::io_delay;
 use super::super::controllers::{self, Notice, SharedLibrary};
 use super::super::load::{self, Failure};
 use super::super::options::SweepOptions;
+use super::super::titles;
 use super::axis::Axis;
 use super::design::{Asked, Design, Point};
 use super::distinct;
@@ -205,7 +205,7 @@ impl Line {
         let named = Texts { layout, specs: &specs, scenario };
         let draft = Draft::new(&sources, named, &concerned);
         let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        let shown = build::shown(&sources, path);
+        let shown = titles::shown(&sources, path);
         Ok(Self {
             name: draft.name().map_or(stem, String::from),
             sources,

@@ -37,6 +37,29 @@ fn a_new_line_passes_its_tests_and_nothing_is_written_over() {
     assert_eq!(status(&autogen(&folder, &["new", "empty"])), 0, "an empty folder is free");
 }
 
+/// A shell takes the commands that `new` prints as they are.
+#[cfg(unix)]
+#[test]
+fn the_next_commands_can_be_given() {
+    let folder = folder("next_commands");
+    for (name, shown) in
+        [("-x", "./-x"), ("my line", "'my line'"), ("a\\b", "'a\\b'"), ("it's $HOME", "'it'\\''s $HOME'")]
+    {
+        let output = autogen(&folder, &["new", "--", name]);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        let commands = said(&output);
+        assert!(commands.contains(&format!("  autogen test {shown}\n")), "{commands}");
+        let check = commands.lines().find(|line| line.starts_with("  autogen check ")).expect("a command");
+        let tool = Path::new(env!("CARGO_BIN_EXE_autogen")).parent().expect("a folder");
+        let output = Command::new("sh")
+            .args(["-c", &format!("PATH={}:$PATH; {check}", tool.display())])
+            .current_dir(&folder)
+            .output()
+            .expect("a shell");
+        assert_eq!(status(&output), 0, "{check}: {}", errors(&output));
+    }
+}
+
 #[test]
 fn the_library_passes_its_tests() {
     let output = autogen(&folder("library_tests"), &["test", &example("ariac2021"), "--quiet"]);

@@ -7,7 +7,9 @@ use super::{Layout, Object, Panel, Part};
 use crate::diagnostic::{Diagnostic, sort};
 use crate::source::{FileId, Sources, Spanned};
 use std::collections::HashSet;
+use std::ffi::OsStr;
 use std::ops::RangeInclusive;
+use std::path::Path;
 
 pub const KEYS: [&str; 9] =
     ["robots", "stationary", "name", "specs", "scenario", "scan_ms", "panel", "routes", "may_touch"];
@@ -134,6 +136,6 @@ fn names(members: &[Member]) -> Vec<&str> {
 }
 
 fn stem(file_name: &str) -> &str {
-    let file = file_name.rsplit(['/', '\\']).next().unwrap_or(file_name);
+    let file = Path::new(file_name).file_name().and_then(OsStr::to_str).unwrap_or(file_name);
     file.rsplit_once('.').map_or(file, |(stem, _)| stem)
 }
