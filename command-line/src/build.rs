@@ -88,7 +88,7 @@ pub fn run(options: &BuildCommandOptions) -> Status {
 pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let failed = |failure| print::failure(&options.input, &failure);
     let mut input = load::load(&options.input).map_err(failed)?;
-    let table = options.io.as_ref().map(|path| load::add(&mut input.sources, path));
+    let table = options.io.as_ref().map(|path| load::table(&mut input.sources, path));
     let table = table.transpose().map_err(failed)?;
     let Outcome { sources, diagnostics, verdict, project, .. } = compile(input);
     let wrong = |sources: &Sources, diagnostics: &[Diagnostic]| {
@@ -112,7 +112,7 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
         None => (sources.clone(), Translations::default()),
         Some(path) => {
             let mut with_texts = sources.clone();
-            let table = load::add(&mut with_texts, path).map_err(failed)?;
+            let table = load::table(&mut with_texts, path).map_err(failed)?;
             let texts = st::screen_texts(&project.system, &sources);
             let read = translation::read(&with_texts, table, &texts.iter().map(String::as_str).collect());
             let translations = read.map_err(|found| wrong(&with_texts, &found))?;

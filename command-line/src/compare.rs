@@ -1,36 +1,52 @@
 //! `autogen compare`: two results, or the runs of two layouts on the reference executor.
 
 mod first;
+mod rows;
 mod seen;
+mod side;
 mod table;
 
 use super::options::{CompareOptions, Format};
-use super::output::RESULTS;
 use super::progress::Progress;
 use super::results::results;
-use super::{load, print, read};
+use super::{build, load, print};
 use crate::Status;
 use autogen::lower::{Project, compile};
 use autogen::source::Sources;
 use first::First;
 use serde_json::{Value, json};
+use side::Side;
 use std::io::{self, IsTerminal};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 pub fn run(options: &CompareOptions) -> Status {
-    let sides = [side(&options.first), side(&options.second)];
+    let refused = |why: &str| print::unusable(&options.input(&options.first), why);
+    let sides = [side::of(&options.first), side::of(&options.second)];
     let compared = match sides {
-        [Ok(Side::Results(a)), Ok(Side::Results(b))] => Compared { reports: [a, b], traces: Traces::Hashes },
-        [Ok(Side::Layout), Ok(Side::Layout)] => match layouts(options) {
+        [Err(why), _] | [_, Err(why)] => return refused(&why),
+        [Ok(Side::Results(a)), Ok(Side::Results(b))] => match of_layouts(options) {
+            Some(given) => {
+                return refused(&format!(
+                    "{given} is for layouts, and {} and {} are results of runs: remove it, or name the two layouts",
+                    options.first.display(),
+                    options.second.display()
+                ));
+            }
+            None => Compared { reports: [a, b], traces: Traces::Hashes },
+        },
+        [Ok(Side::Results(_)), Ok(Side::Other(why))] | [Ok(Side::Other(why)), Ok(Side::Results(_))] => {
+            return refused(&why);
+        }
+        [Ok(Side::Results(_)), Ok(Side::Layout)] | [Ok(Side::Layout), Ok(Side::Results(_))] => {
+            return refused(
+                "one of the two is a layout and the other one has results: name two layouts or two results",
+            );
+        }
+        // What is wrong with a layout its reader says.
+        [Ok(Side::Layout | Side::Other(_)), Ok(Side::Layout | Side::Other(_))] => match layouts(options) {
             Ok(compared) => compared,
             Err(status) => return status,
         },
-        [Err(why), _] | [_, Err(why)] => return print::unusable(&options.input(&options.first), &why),
-        _ => {
-            let why =
-                "one of the two is a layout and the other one has results: name two layouts or two results";
-            return print::unusable(&options.input(&options.first), why);
-        }
     };
     let is_same = compared.is_same();
     match options.format {
@@ -41,24 +57,14 @@ pub fn run(options: &CompareOptions) -> Status {
     if is_same { Status::Done } else { Status::NotReached }
 }
 
-enum Side {
-    Layout,
-    Results(Value),
-}
-
-/// What a path of the command line names.
-fn side(path: &Path) -> Result<Side, String> {
-    let file: PathBuf = if path.is_dir() { path.join(RESULTS) } else { path.into() };
-    let text = read::text(&file).map_err(|why| match path.is_dir() {
-        true => format!("{}: {why}; `commission` writes the results of a run there", file.display()),
-        false => format!("{}: {why}", file.display()),
-    })?;
-    match serde_json::from_str::<Value>(&text) {
-        Ok(results) if results["trace_hash"].is_string() => Ok(Side::Results(results)),
-        _ if path.is_dir() => Err(format!("{}: these are not results of a run", file.display())),
-        // What is wrong with a layout its reader says.
-        _ => Ok(Side::Layout),
-    }
+/// The first option that was given and that says how to run a layout.
+fn of_layouts(options: &CompareOptions) -> Option<&'static str> {
+    let given = [
+        ("--specs", !options.specs.is_empty()),
+        ("--scenario", options.scenario.is_some()),
+        ("--set", !options.settings.is_empty()),
+    ];
+    given.into_iter().find_map(|(name, is_given)| is_given.then_some(name))
 }
 
 /// What came of two runs.
@@ -94,7 +100,7 @@ fn project(options: &CompareOptions, layout: &Path) -> Result<(Project, Sources)
     let input = options.input(layout);
     let outcome = compile(load::load(&input).map_err(|failure| print::failure(&input, &failure))?);
     match outcome.project {
-        Some(project) => Ok((project, outcome.sources)),
+        Some(project) => Ok((project, build::shown(&outcome.sources, layout))),
         None => Err(print::refused(&input, &outcome.sources, &outcome.diagnostics)),
     }
 }
@@ -107,7 +113,7 @@ impl Compared {
             Traces::Hashes => a["trace_hash"] == b["trace_hash"],
             Traces::Values { first, only } => first.is_none() && only.iter().all(Vec::is_empty),
         };
-        are_traces_same && table::rows(a, b).iter().all(|row| row.is_same())
+        are_traces_same && rows::rows(a, b).iter().all(|row| row.is_same())
     }
 
     fn text(&self) -> String {
@@ -130,12 +136,12 @@ impl Compared {
                 }
             }
         }
-        out + "\n" + &table::text(&table::rows(a, b))
+        out + "\n" + &table::text(&rows::rows(a, b))
     }
 
     fn json(&self) -> Value {
         let [a, b] = &self.reports;
-        let rows = table::rows(a, b);
+        let rows = rows::rows(a, b);
         let rows = rows.iter().filter(|row| !row.is_same());
         let rows =
             rows.map(|row| json!({ "what": row.what, "first": row.values[0], "second": row.values[1] }));

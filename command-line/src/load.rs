@@ -2,7 +2,7 @@
 
 use super::named::{Folder, Unusable, automata};
 use super::options::InputOptions;
-use super::read;
+use super::read::{self, Unread};
 use autogen::diagnostic::{self, Diagnostic};
 use autogen::layout;
 use autogen::lower::{Input, Setting};
@@ -15,6 +15,8 @@ use std::path::{Path, PathBuf};
 pub enum Failure {
     /// A file cannot be read.
     Unreadable(String),
+    /// A file is too large, or its text is in another encoding.
+    Unfit(String),
     /// What the command line says is wrong.
     Wrong(Sources, Vec<Diagnostic>),
     /// What the layout names cannot be read, or a file is not what it should be.
@@ -100,7 +102,7 @@ pub fn texts_of(
     }
     for path in given {
         for path in automata(path).map_err(|why| unreadable(path, &why))? {
-            let text = read::text(&path).map_err(|why| unreadable(&path, &why))?;
+            let text = text(&path)?;
             add_spec(sources, &mut specs, path.display().to_string(), text)?;
         }
     }
@@ -144,8 +146,18 @@ pub fn add(sources: &mut Sources, path: &Path) -> Result<FileId, Failure> {
     add_text(sources, path.display().to_string(), text)
 }
 
+/// A table that a person has filled, with nothing of it lost.
+pub fn table(sources: &mut Sources, path: &Path) -> Result<FileId, Failure> {
+    let text = text_of_table(path)?;
+    add_text(sources, path.display().to_string(), text)
+}
+
+pub fn text_of_table(path: &Path) -> Result<String, Failure> {
+    read::utf_8(path).map_err(|why| unread(path, &why))
+}
+
 pub fn text(path: &Path) -> Result<String, Failure> {
-    read::text(path).map_err(|why| unreadable(path, &why))
+    read::text(path).map_err(|why| unread(path, &why))
 }
 
 fn add_text(sources: &mut Sources, name: String, text: String) -> Result<FileId, Failure> {
@@ -205,6 +217,13 @@ fn unusable(key: &str, name: &Spanned<String>, why: &Unusable) -> Diagnostic {
     Diagnostic::new(code, name.span, format!("`{key}` names \"{}\", which cannot be used", name.value))
         .label(why.to_string())
         .help(help)
+}
+
+fn unread(path: &Path, why: &Unread) -> Failure {
+    match why.is_content() {
+        true => Failure::Unfit(format!("{}: {why}", path.display())),
+        false => unreadable(path, why),
+    }
 }
 
 fn unreadable(path: &Path, why: &impl Display) -> Failure {

@@ -83,8 +83,8 @@ pub fn failure(options: &InputOptions, failure: &Failure) -> Status {
 /// What stopped a command before anything was compiled.
 pub fn failure_in(format: Format, failure: &Failure) -> Status {
     match (failure, format) {
-        (Failure::Unreadable(text), Format::Text) => complain!("autogen: {text}"),
-        (Failure::Unreadable(text), Format::Json) => {
+        (Failure::Unreadable(text) | Failure::Unfit(text), Format::Text) => complain!("autogen: {text}"),
+        (Failure::Unreadable(text) | Failure::Unfit(text), Format::Json) => {
             say!("{}", json!({ "feasible": false, "finished": false, "reason": text, "diagnostics": [] }));
         }
         (Failure::Wrong(sources, found) | Failure::Refused(sources, found), Format::Text) => {
@@ -98,7 +98,7 @@ pub fn failure_in(format: Format, failure: &Failure) -> Status {
         }
     }
     match failure {
-        Failure::Refused(..) => Status::WrongInput,
+        Failure::Refused(..) | Failure::Unfit(_) => Status::WrongInput,
         Failure::Unreadable(_) | Failure::Wrong(..) => Status::WrongCommand,
     }
 }

@@ -58,6 +58,25 @@ pub enum Unread {
     NotRegular,
     TooLarge,
     Utf16,
+    /// A byte that is in no text in UTF-8, with its line.
+    NotUtf8 {
+        line: usize,
+        byte: u8,
+    },
+}
+
+/// How a text in another encoding becomes one that is read.
+const SAVE_AGAIN: &str = "Save it again as UTF-8: a spreadsheet calls it `CSV UTF-8`, Notepad `Encoding: UTF-8`, \
+                          PowerShell `Out-File -Encoding utf8`";
+
+impl Unread {
+    /// Whether the content is wrong, so that the same file is never read.
+    pub fn is_content(&self) -> bool {
+        match self {
+            Unread::Io(_) | Unread::NotRegular => false,
+            Unread::TooLarge | Unread::Utf16 | Unread::NotUtf8 { .. } => true,
+        }
+    }
 }
 
 impl fmt::Display for Unread {
@@ -68,9 +87,10 @@ impl fmt::Display for Unread {
             Unread::TooLarge => {
                 write!(f, "this file is larger than {} MB, which is the limit", MOST_BYTES / 1_000_000)
             }
-            Unread::Utf16 => f.write_str(
-                "this file is UTF-16, and only UTF-8 is read. Save it again as UTF-8: a spreadsheet calls it \
-                 `CSV UTF-8`, Notepad `Encoding: UTF-8`, PowerShell `Out-File -Encoding utf8`",
+            Unread::Utf16 => write!(f, "this file is UTF-16, and only UTF-8 is read. {SAVE_AGAIN}"),
+            Unread::NotUtf8 { line, byte } => write!(
+                f,
+                "line {line} has a byte that is not UTF-8, 16#{byte:02X}, and only UTF-8 is read. {SAVE_AGAIN}"
             ),
         }
     }
@@ -79,19 +99,46 @@ impl fmt::Display for Unread {
 /// The text of a file without a byte order mark; what is no UTF-8 is replaced. UTF-16 is refused: nothing in
 /// it could be read. Neither a pipe nor a device that never ends holds this up.
 pub fn text(path: &Path) -> Result<String, Unread> {
+    Ok(unmarked(&String::from_utf8_lossy(&bytes_of_text(path)?)))
+}
+
+/// The same of a file that holds texts of people, of which nothing may be lost.
+pub fn utf_8(path: &Path) -> Result<String, Unread> {
+    let bytes = bytes_of_text(path)?;
+    let text = std::str::from_utf8(&bytes).map_err(|error| {
+        let (before, rest) = bytes.split_at(error.valid_up_to());
+        Unread::NotUtf8 { line: line_behind(before), byte: rest[0] }
+    })?;
+    Ok(unmarked(text))
+}
+
+fn unmarked(text: &str) -> String {
+    text.strip_prefix('\u{feff}').unwrap_or(text).into()
+}
+
+/// The number of the line that goes on behind these bytes. Lines end with LF, CR or both.
+fn line_behind(bytes: &[u8]) -> usize {
+    let is_end = |at: usize| match bytes[at] {
+        b'\n' => true,
+        b'\r' => bytes.get(at + 1) != Some(&b'\n'),
+        _ => false,
+    };
+    1 + (0..bytes.len()).filter(|at| is_end(*at)).count()
+}
+
+fn bytes_of_text(path: &Path) -> Result<Vec<u8>, Unread> {
     let open = real(path).and_then(|path| lock(&OPEN).get(&path).cloned());
     if let Some(text) = open {
-        return Ok(text);
+        return Ok(text.into_bytes());
     }
     let bytes = bytes(regular(path)?)?;
     if let Ok(path) = path.canonicalize() {
         lock(&FILES).insert(path);
     }
-    if is_utf_16(&bytes) {
-        return Err(Unread::Utf16);
+    match is_utf_16(&bytes) {
+        true => Err(Unread::Utf16),
+        false => Ok(bytes),
     }
-    let text = String::from_utf8_lossy(&bytes);
-    Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).into())
 }
 
 /// The bytes of a file that is no text.

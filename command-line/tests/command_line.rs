@@ -2,6 +2,8 @@
 
 #[path = "command_line/checked_in.rs"]
 mod checked_in;
+#[path = "command_line/compared_results.rs"]
+mod compared_results;
 #[path = "command_line/compiling.rs"]
 mod compiling;
 #[path = "command_line/conveyors.rs"]
@@ -55,6 +57,8 @@ mod side_by_side;
 mod sweep;
 #[path = "command_line/sweep_values.rs"]
 mod sweep_values;
+#[path = "command_line/tables.rs"]
+mod tables;
 #[path = "command_line/tests_apart.rs"]
 mod tests_apart;
 #[path = "command_line/tests_of_users.rs"]
@@ -232,7 +236,7 @@ fn a_file_in_utf_16_is_called_so() {
         ];
         for arguments in asked {
             let output = autogen(&folder, arguments);
-            assert_eq!(status(&output), 2, "{arguments:?}");
+            assert_eq!(status(&output), 1, "{arguments:?}");
             let said = errors(&output);
             assert!(said.contains("utf_16: this file is UTF-16") && said.contains("UTF-8"), "{said}");
         }

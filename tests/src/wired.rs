@@ -128,7 +128,7 @@ pub fn drawn(points: &[Point], seed: u64) -> Vec<Row> {
             (_, Direction::Output) => 'Q',
         };
         if point.kind == Kind::Bool {
-            row.is_inverted = random.up_to(1) == 0;
+            row.is_inverted = random.up_to(1) == 0 && point.name != "run_permit";
             row.address = format!("%{area}X{}.{}", number / 8, number % 8);
         } else {
             let (raw, letter, offset) = number_type(&mut random, point.kind);

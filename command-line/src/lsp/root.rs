@@ -81,7 +81,9 @@ fn layout(path: &Path) -> Found {
         Err(Failure::Refused(sources, diagnostics) | Failure::Wrong(sources, diagnostics)) => {
             Found { sources, diagnostics, refused: None }
         }
-        Err(Failure::Unreadable(why)) => Found { refused: Some(why), ..Found::default() },
+        Err(Failure::Unreadable(why) | Failure::Unfit(why)) => {
+            Found { refused: Some(why), ..Found::default() }
+        }
     }
 }
 

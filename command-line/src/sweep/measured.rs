@@ -40,7 +40,7 @@ impl Measured {
     /// Every column but that of the figures has to be one of `columns`, by which a sweep names its points;
     /// no two rows may name the same point.
     pub(crate) fn read(path: &Path, columns: &[&str]) -> Result<Self, Refusal> {
-        let text = load::text(path).map_err(Refusal::Failure)?;
+        let text = load::text_of_table(path).map_err(Refusal::Failure)?;
         Self::parse(&path.display().to_string(), &text, columns).map_err(Refusal::Said)
     }
 

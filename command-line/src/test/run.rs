@@ -1,5 +1,6 @@
 //! The tests of one file, each on the engines that are asked for.
 
+use super::super::build;
 use super::super::controllers::{self, Notice};
 use super::super::load::{self, Failure as LoadFailure};
 use super::super::named::Folder;
@@ -27,6 +28,7 @@ pub enum End {
 struct Compiled {
     key: (PathBuf, Option<PathBuf>, Vec<String>),
     project: Project,
+    /// Under the names that `commission` shows.
     sources: Sources,
 }
 
@@ -123,7 +125,7 @@ fn line(
     };
     let input = load::load(&input).map_err(|failure| {
         LineEnd::End(match failure {
-            LoadFailure::Unreadable(why) => End::Failed(why),
+            LoadFailure::Unreadable(why) | LoadFailure::Unfit(why) => End::Failed(why),
             LoadFailure::Wrong(sources, found) | LoadFailure::Refused(sources, found) => {
                 End::Wrong(sources, found)
             }
@@ -132,7 +134,8 @@ fn line(
     let outcome = compile(input);
     match outcome.project {
         Some(project) => {
-            compiled.push(Compiled { key, project, sources: outcome.sources });
+            let sources = build::shown(&outcome.sources, &key.0);
+            compiled.push(Compiled { key, project, sources });
             Ok(compiled.len() - 1)
         }
         None => Err(LineEnd::End(End::Wrong(outcome.sources, outcome.diagnostics))),

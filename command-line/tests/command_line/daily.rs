@@ -40,47 +40,6 @@ fn a_change_of_a_specification_is_found_where_it_acts_first() {
 }
 
 #[test]
-fn results_are_compared_row_by_row() {
-    let folder = folder("compare_results");
-    let results = |name: &str, per_order: f64, hash: &str| {
-        fs::create_dir_all(folder.join(name)).expect("a folder");
-        let text = format!(
-            r#"{{"finished": true, "reason": "all orders made", "orders": 1, "orders_done": 1, "simulated_s": 83.0,
-            "seconds_per_order": {per_order}, "trace_hash": "{hash}", "robots": {{"agv1": {{"moving_s": 2.0}}}},
-            "order_times": [{{"order": 1, "made_s": {per_order}}}], "wall_s": {per_order}}}"#
-        );
-        fs::write(folder.join(name).join("results.json"), text).expect("a file");
-    };
-    results("a", 83.0, "00");
-    results("b", 84.5, "01");
-    results("c", 83.0, "01");
-    assert_eq!(status(&autogen(&folder, &["compare", "a", "a/results.json"])), 0);
-    let output = autogen(&folder, &["compare", "a", "b"]);
-    assert_eq!(status(&output), 3);
-    let text = said(&output);
-    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
-    assert!(rows.contains(&vec!["seconds_per_order", "83", "84.5", "+1.50"]), "{text}");
-    assert!(rows.contains(&vec!["order", "1", "made_s", "83", "84.5", "+1.50"]), "{text}");
-    assert!(!text.contains("agv1"), "{text}");
-    let output = autogen(&folder, &["compare", "a", "c"]);
-    assert_eq!(status(&output), 3, "another trace with the same figures");
-    assert!(said(&output).contains("the hashes of the traces differ"), "{}", said(&output));
-
-    let layout = example("scenes/lifting_table.json");
-    for (a, b, why) in [
-        ("a", layout.as_str(), "name two layouts or two results"),
-        ("nothing", "a", "nothing: "),
-        (".", "a", "`commission` writes the results"),
-    ] {
-        let output = autogen(&folder, &["compare", a, b]);
-        assert_eq!(status(&output), 2, "{a} {b}");
-        assert!(errors(&output).contains(why), "{}", errors(&output));
-    }
-    fs::write(folder.join("a/results.json"), "{}").expect("a file");
-    assert_eq!(status(&autogen(&folder, &["compare", "a", "b"])), 2);
-}
-
-#[test]
 fn files_are_formatted_all_or_none() {
     let folder = folder("fmt");
     let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");

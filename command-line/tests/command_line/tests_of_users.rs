@@ -434,3 +434,33 @@ fn words_of_tests_may_be_names_of_variables() {
     let output = autogen(&folder, &["test", "."]);
     assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
 }
+
+const STOPS: &str = "automaton Alpha on bin {
+    whenever false then true within 1 s else warn \"never\";
+    initial -> S {}
+    state S within 50 ms { when false -> S {} }
+}
+";
+
+/// The text of the file is named as `commission` names it, from wherever the test is run.
+#[test]
+fn a_reason_does_not_depend_on_the_folder_of_the_command() {
+    let folder = folder("test_reason");
+    fs::create_dir_all(folder.join("line/specs")).expect("a folder");
+    let reason = "(specs/a.aut:4)";
+    let layout = r#"{"specs": "specs", "robots": [{"name": "m1", "type": "alpha", "pose": [0, 0, 0]}]}"#;
+    let tests = format!("layout \"line.json\";\ntest \"a\" {{ expect reason \"{reason}\"; }}\n");
+    for (name, text) in [("specs/a.aut", STOPS), ("line.json", layout), ("line.test", &tests)] {
+        fs::write(folder.join("line").join(name), text).expect("a file");
+    }
+    let output = autogen(&folder, &["sweep", "line/line.json", "--format", "json"]);
+    assert!(json(&output)["rows"][0]["reason"].to_string().contains(reason), "{}", said(&output));
+    for (from, path) in [(folder.clone(), "line/line.test"), (folder.join("line"), "line.test")] {
+        let output = autogen(&from, &["test", path]);
+        assert_eq!(status(&output), 0, "{path}: {}{}", said(&output), errors(&output));
+    }
+    fs::write(folder.join("line/line.test"), tests.replace(reason, "another")).expect("a file");
+    let text = said(&autogen(&folder, &["test", "line/line.test"]));
+    assert!(text.contains("line/line.test:2: ") && text.contains(reason), "{text}");
+    assert!(!text.contains("line/specs"), "{text}");
+}

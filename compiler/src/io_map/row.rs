@@ -234,16 +234,18 @@ impl<'p> Rows<'p> {
             })
         };
         let count = found.len();
+        let inverted = record.get("inversion").filter(|field| self.truth(field, found) == Some(true));
         if point.kind == Kind::Bool {
             let why = "a boolean has no scale and no offset";
             found.extend(refused("scale", why).into_iter().chain(refused("offset", why)));
-            let is_inverted = record.get("inversion").map(|field| self.truth(field, found));
-            return (found.len() == count).then_some(match is_inverted {
-                Some(Some(true)) => Conversion::Inverted,
-                _ => Conversion::None,
-            });
+            let is_permit = point.robot.is_empty() && point.name == PERMIT;
+            found.extend(inverted.filter(|_| is_permit).map(never_inverted));
+            let conversion = if inverted.is_some() { Conversion::Inverted } else { Conversion::None };
+            return (found.len() == count).then_some(conversion);
         }
-        found.extend(refused("inversion", "only a boolean is inverted"));
+        if inverted.is_some() {
+            found.extend(refused("inversion", "only a boolean is inverted"));
+        }
         let scale = record.get("scale").map_or(Some(1.0), |field| self.number(field, found));
         let offset = record.get("offset").map_or(Some(0.0), |field| self.number(field, found));
         let numbers = Numbers { scale: scale?, offset: offset? };
@@ -295,6 +297,15 @@ impl<'p> Rows<'p> {
             }
         }
     }
+}
+
+/// The input of the line that a broken wire has to make false.
+const PERMIT: &str = "run_permit";
+
+fn never_inverted(field: &Field) -> Diagnostic {
+    Diagnostic::new("E0609", field.span, format!("{PERMIT} may not be inverted"))
+        .note("a broken wire or a lost fieldbus reads 0, which would then permit the line to run")
+        .help("leave the column `inversion` empty, and wire the contact so that it is closed while the line may run")
 }
 
 /// Direction and type of a table that was made for another line.
