@@ -9,7 +9,7 @@ mod table;
 use super::options::{CompareOptions, Format};
 use super::progress::Progress;
 use super::results::results;
-use super::{build, load, print};
+use super::{load, print, titles};
 use crate::Status;
 use autogen::lower::{Project, compile};
 use autogen::source::Sources;
@@ -100,7 +100,7 @@ fn project(options: &CompareOptions, layout: &Path) -> Result<(Project, Sources)
     let input = options.input(layout);
     let outcome = compile(load::load(&input).map_err(|failure| print::failure(&input, &failure))?);
     match outcome.project {
-        Some(project) => Ok((project, build::shown(&outcome.sources, layout))),
+        Some(project) => Ok((project, titles::shown(&outcome.sources, layout))),
         None => Err(print::refused(&input, &outcome.sources, &outcome.diagnostics)),
     }
 }

@@ -1,11 +1,10 @@
 //! The tests of one file, each on the engines that are asked for.
 
-use super::super::build;
 use super::super::controllers::{self, Notice};
 use super::super::load::{self, Failure as LoadFailure};
 use super::super::named::Folder;
 use super::super::options::{Format, InputOptions, TestEngine, TestOptions};
-use super::super::read;
+use super::super::{read, titles};
 use super::{OfFile, Outcome, Result as TestResult};
 use autogen::backend::rust::parameters_text;
 use autogen::backend::st;
@@ -134,7 +133,7 @@ fn line(
     let outcome = compile(input);
     match outcome.project {
         Some(project) => {
-            let sources = build::shown(&outcome.sources, &key.0);
+            let sources = titles::shown(&outcome.sources, &key.0);
             compiled.push(Compiled { key, project, sources });
             Ok(compiled.len() - 1)
         }
