@@ -1,9 +1,8 @@
 //! What a run did not come to.
 
-use crate::carrier::Carrier;
 use crate::line::{Line, LineButton};
 use crate::plant::Plant;
-use crate::report::{Outcome, seconds};
+use crate::report::{Outcome, carrier_text, seconds};
 
 /// What the scenario has go wrong, or somebody do, that did not happen, a line each.
 pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String> {
@@ -63,7 +62,10 @@ pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String>
         let what = format!("removal of {}_{}", line.kinds[removal.kind].name, removal.number);
         let missed = missed.map(|carrier| {
             let at_s = seconds(removal.at_scan, line.scan_ms);
-            format!("not reached: {what} at {at_s:.2} s: then it was {}", missed_text(line, carrier))
+            format!(
+                "not reached: {what} at {at_s:.2} s, when its carrier was: {}",
+                carrier_text(line, carrier)
+            )
         });
         missed.or_else(|| timed(what, removal.at_scan))
     });
@@ -77,14 +79,4 @@ pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String>
         .chain(removals)
         .flatten()
         .collect()
-}
-
-/// Where an item was that could not be taken away.
-fn missed_text(line: &Line, carrier: Carrier) -> String {
-    match carrier {
-        Carrier::Supply => "not on the line yet".into(),
-        Carrier::Grip { machine, .. } => format!("in the gripper of {}", line.machines[machine].name),
-        Carrier::Part { .. } => "a part of another item".into(),
-        _ => "off the line already".into(),
-    }
 }

@@ -41,12 +41,16 @@ impl<'a> Faults<'a> {
 
     /// Code and machine of the fault that is there and that nothing clears after this scan.
     pub fn last(&self, scan: u64) -> Option<(i32, Option<usize>)> {
-        let present = self.all.last().filter(|fault| fault.cleared.is_none())?;
+        let present = self.present()?;
         (!clears_later(&self.line.scenario, scan)).then_some((present.code, present.machine))
     }
 
     pub fn is_present(&self) -> bool {
-        self.all.last().is_some_and(|fault| fault.cleared.is_none())
+        self.present().is_some()
+    }
+
+    fn present(&self) -> Option<&Fault> {
+        self.all.last().filter(|fault| fault.cleared.is_none())
     }
 
     /// Those that did not end the run, in the order of their times.
