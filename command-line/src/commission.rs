@@ -161,8 +161,7 @@ fn report(
     let is_quiet = input.quiet || input.format != Format::Text;
     let notice = if is_quiet { Notice::None } else { Notice::Compiling };
     let system = &built.project.system;
-    let of_rust = |(path, text): (&String, &String)| Some((path.strip_prefix("rust/")?.into(), text.clone()));
-    let library = controllers::compiled_from(built_files.iter().filter_map(of_rust).collect(), notice)?;
+    let library = controllers::compiled(system, &built.sources, notice)?;
     let mut line = built.project.plant.clone();
     line.io_delay = delay;
     let mut controllers = library.controllers(&line, &parameters_text(system))?;

@@ -11,7 +11,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// Changes with what is in the folders.
-const FORMAT: &str = "controllers-1";
+const FORMAT: &str = "controllers-2";
 const LIBRARY: &str = "library";
 /// Hash of the library, as a check that it is what was made.
 const HASH: &str = "library.sha256";

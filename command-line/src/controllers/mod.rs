@@ -35,16 +35,7 @@ impl Notice {
 /// The controllers of this system's types. The types and the kinds of part are all that they depend on, so they
 /// are compiled once for all layouts and values, and kept in the user's cache.
 pub fn compiled(system: &System, sources: &Sources, notice: Notice) -> Result<SharedLibrary, String> {
-    loaded(rust::library_files(system, sources), notice)
-}
-
-/// The same from the files of the workspace `rust/` of a line.
-pub fn compiled_from(workspace: Files, notice: Notice) -> Result<SharedLibrary, String> {
-    loaded(rust::library_of(workspace), notice)
-}
-
-fn loaded(files: Files, notice: Notice) -> Result<SharedLibrary, String> {
-    let entry = Entry::open(&key(&files), notice)?;
+    let entry = Entry::open(&key(&rust::library_sources(system, sources)), notice)?;
     if let Some(path) = entry.library(notice) {
         // What was made here loads here, unless the system itself has changed since.
         if let Ok(library) = SharedLibrary::load(&path) {
@@ -52,22 +43,16 @@ fn loaded(files: Files, notice: Notice) -> Result<SharedLibrary, String> {
         }
     }
     notice.say("compiling the controllers (once for these types) ...");
+    let files = rust::library_files(system, sources);
     let path = entry.fill(|workspace: &Path| cargo::compile(workspace, &files))?;
     SharedLibrary::load(&path)
 }
 
 /// What tells compiled controllers from others.
-fn key(files: &Files) -> String {
-    let texts = files.iter().filter(|(name, _)| !is_of_layout(name));
+fn key(sources: &Files) -> String {
     let mut all = format!("{} {ARCH} {OS}\n", version::NUMBER);
-    for (name, text) in texts {
+    for (name, text) in sources {
         all += &format!("{name} {}\n{text}\n", text.len());
     }
     hash(all.as_bytes())
-}
-
-/// Files in which only the layout is written; the library reads its data at run time.
-fn is_of_layout(name: &str) -> bool {
-    name.starts_with("controllers/src/robots/")
-        || matches!(name, "controllers/src/robots.rs" | "controllers/src/line.rs")
 }

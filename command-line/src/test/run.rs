@@ -1,6 +1,6 @@
 //! The tests of one file, each on the engines that are asked for.
 
-use super::super::controllers::{self, Notice};
+use super::super::controllers::{self, Notice, SharedLibrary};
 use super::super::load::{self, Failure as LoadFailure};
 use super::super::named::Folder;
 use super::super::options::{Format, InputOptions, TestEngine, TestOptions};
@@ -14,6 +14,7 @@ use autogen::lower::{Project, compile};
 use autogen::source::{Sources, Spanned};
 use autogen::testing::{self, Body, Emitted, Engine, Failure, Played, Setup, StructuredText, Test, Watched};
 use runtime_sim::run::{Stepping, run as simulate};
+use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
 /// Why the tests of a file were not run.
@@ -29,6 +30,23 @@ struct Compiled {
     project: Project,
     /// Under the names that `commission` shows.
     sources: Sources,
+    /// What tests have in common on engines that need it; none until the first one does.
+    library: OnceCell<SharedLibrary>,
+    emitted: OnceCell<Emitted>,
+}
+
+impl Compiled {
+    fn library(&self, notice: Notice) -> Result<&SharedLibrary, String> {
+        if let Some(known) = self.library.get() {
+            return Ok(known);
+        }
+        let library = controllers::compiled(&self.project.system, &self.sources, notice)?;
+        Ok(self.library.get_or_init(|| library))
+    }
+
+    fn emitted(&self) -> &Emitted {
+        self.emitted.get_or_init(|| Emitted::of(&st::files(&self.project.system, &self.sources)))
+    }
 }
 
 pub fn file(options: &TestOptions, path: &Path) -> Result<OfFile, End> {
@@ -134,7 +152,8 @@ fn line(
     match outcome.project {
         Some(project) => {
             let sources = titles::shown(&outcome.sources, &key.0);
-            compiled.push(Compiled { key, project, sources });
+            let (library, emitted) = Default::default();
+            compiled.push(Compiled { key, project, sources, library, emitted });
             Ok(compiled.len() - 1)
         }
         None => Err(LineEnd::End(End::Wrong(outcome.sources, outcome.diagnostics))),
@@ -165,11 +184,11 @@ fn one(
             on(line, test, Engine::Executor(&mut Executor::new(system)), Stepping::Events)
         }
         TestEngine::Rust => {
-            let library = controllers::compiled(system, &line.sources, notice(options))?;
+            let library = line.library(notice(options))?;
             let mut controllers = library.controllers(plant, &parameters_text(system))?;
             on(line, test, Engine::Other(&mut controllers), Stepping::Events)
         }
-        TestEngine::St => on_structured_text(line, test, &Emitted::of(&st::files(system, &line.sources))),
+        TestEngine::St => on_structured_text(line, test, line.emitted()),
     }
 }
 

@@ -31,6 +31,7 @@ use crate::ir::{AutomatonId, ExprKind, System, Update, UpdateKind};
 use crate::source::Sources;
 use askama::Template;
 use context::{Context, Shared};
+use format::Unformatted;
 
 const MANIFEST: &str = include_str!("../../../templates/rust/Cargo.toml");
 const LIBRARY_MANIFEST: &str = include_str!("../../../templates/rust/library.toml");
@@ -80,15 +81,21 @@ pub fn write(system: &System, sources: &Sources, files: &mut dyn Sink) {
 pub fn library_files(system: &System, sources: &Sources) -> Files {
     let mut files = Files::new();
     crates(system, sources, &mut files);
-    library_of(files)
+    files.insert("Cargo.toml".into(), LIBRARY_MANIFEST.into());
+    files
 }
 
-/// The same from the [`files`] of the line.
-pub fn library_of(files: Files) -> Files {
-    let is_crate = |path: &str| path.starts_with("controllers/") || path.starts_with("adapters/");
-    let mut library: Files = files.into_iter().filter(|(path, _)| is_crate(path)).collect();
-    library.insert("Cargo.toml".into(), LIBRARY_MANIFEST.into());
-    library
+/// The texts from which the library is made that reads its layout at run time, before they are laid out: the types and
+/// the kinds of part are all that they depend on.
+pub fn library_sources(system: &System, sources: &Sources) -> Files {
+    let system = &without_idle_updates(system);
+    let names = names::names(system);
+    let mut files = Files::new();
+    of_types(Shared { system, sources, names: &names }, |path, text| {
+        files.insert(path.into(), text.source().into());
+    });
+    files.insert("Cargo.toml".into(), LIBRARY_MANIFEST.into());
+    files
 }
 
 /// The crates of the controllers and of their adapters.
@@ -97,35 +104,41 @@ fn crates(system: &System, sources: &Sources, files: &mut dyn Sink) {
     let system = &without_idle_updates(system);
     let names = names::names(system);
     let shared = Shared { system, sources, names: &names };
-    let mut put = |path: String, text: String| files.file(&path, &text);
-    put("controllers/Cargo.toml".into(), CONTROLLERS_MANIFEST.into());
-    put("controllers/src/types.rs".into(), TYPES.into());
-    if shared::has_alarm_module(shared) {
-        put("controllers/src/alarm.rs".into(), ALARM.into());
-    }
-    put("controllers/src/lib.rs".into(), shared::library(shared));
-    put("controllers/src/kinds.rs".into(), shared::kinds(shared));
-    put("controllers/src/cells.rs".into(), shared::cells(shared));
-    put("controllers/src/system.rs".into(), shared::system(shared));
-    put("controllers/src/robot.rs".into(), shared::robot(shared));
-    if shared.system.model.retains() {
-        put("controllers/src/retained.rs".into(), retained::module(shared));
-    }
-    for id in 0..system.model.automata.len() {
-        let context = Context::new(shared, AutomatonId(id));
-        put(format!("controllers/src/{}.rs", context.own().module), automaton::module(&context));
-    }
-    put("controllers/src/line.rs".into(), line::line(shared, retained_of));
-    put("controllers/src/robots.rs".into(), robots::modules(shared));
+    let mut put = |path: &str, text: Unformatted| files.file(path, &text.formatted());
+    of_types(shared, &mut put);
+    put("controllers/src/line.rs", line::line(shared, retained_of));
+    put("controllers/src/robots.rs", robots::modules(shared));
     for id in used_types(system) {
         let module = &names.automata[id.0].module;
-        put(format!("controllers/src/robots/{module}.rs"), robots::of_type(shared, id));
+        put(&format!("controllers/src/robots/{module}.rs"), robots::of_type(shared, id));
     }
-    put("adapters/Cargo.toml".into(), ADAPTERS_MANIFEST.into());
+}
+
+/// All of them but what has the values of the layout.
+fn of_types(shared: Shared, mut put: impl FnMut(&str, Unformatted)) {
+    let fixed = |text: &str| Unformatted::AsItIs(text.into());
+    put("controllers/Cargo.toml", fixed(CONTROLLERS_MANIFEST));
+    put("controllers/src/types.rs", fixed(TYPES));
+    if shared::has_alarm_module(shared) {
+        put("controllers/src/alarm.rs", fixed(ALARM));
+    }
+    put("controllers/src/lib.rs", shared::library(shared));
+    put("controllers/src/kinds.rs", shared::kinds(shared));
+    put("controllers/src/cells.rs", shared::cells(shared));
+    put("controllers/src/system.rs", shared::system(shared));
+    put("controllers/src/robot.rs", shared::robot(shared));
+    if shared.system.model.retains() {
+        put("controllers/src/retained.rs", retained::module(shared));
+    }
+    for id in 0..shared.system.model.automata.len() {
+        let context = Context::new(shared, AutomatonId(id));
+        put(&format!("controllers/src/{}.rs", context.own().module), automaton::module(&context));
+    }
+    put("adapters/Cargo.toml", fixed(ADAPTERS_MANIFEST));
     for (path, text) in ADAPTERS {
-        put(format!("adapters/{path}"), text.into());
+        put(&format!("adapters/{path}"), fixed(text));
     }
-    put("adapters/src/layout.rs".into(), adapters::adapters(shared));
+    put("adapters/src/layout.rs", adapters::adapters(shared));
 }
 
 /// Without assignments of a place to itself, which have no effect.

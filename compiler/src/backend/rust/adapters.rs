@@ -1,8 +1,9 @@
 //! Between process images or texts and the controllers.
 
 use super::context::Shared;
+use super::format::Unformatted;
 use super::shared::{has_alarms, uses_cells};
-use super::{format, render, retained};
+use super::{render, retained};
 use askama::Template;
 use runtime_sim::device::Direction;
 
@@ -50,7 +51,7 @@ struct RobotView {
     trace: String,
 }
 
-pub fn adapters(shared: Shared) -> String {
+pub fn adapters(shared: Shared) -> Unformatted {
     let model = &shared.system.model;
     let interfaces =
         model.interfaces.iter().zip(&shared.names.interfaces).map(|(interface, names)| InterfaceView {
@@ -87,7 +88,7 @@ pub fn adapters(shared: Shared) -> String {
     importable.push(("crate::image".into(), ["Image", "Latch", "Put", "words_of"].map(String::from).into()));
     importable.push(("crate::kept".into(), ["Kept"].map(String::from).into()));
     importable.push(("crate::read".into(), ["Read", "Reader", "kept", "rows"].map(String::from).into()));
-    format::module(&render(&view), &importable)
+    Unformatted::Module(render(&view), importable)
 }
 
 fn robot(shared: Shared, id: usize) -> RobotView {

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::doc::{doc, documented};
-use super::format;
+use super::format::Unformatted;
 use super::modes;
 use super::property;
 use super::render;
@@ -66,7 +66,7 @@ struct Field {
     initial: String,
 }
 
-pub fn module(context: &Context) -> String {
+pub fn module(context: &Context) -> Unformatted {
     let automaton = context.automaton();
     let names = context.own();
     let device = &automaton.device;
@@ -158,7 +158,7 @@ pub fn module(context: &Context) -> String {
         cells_parameter: retained::cells_parameter(context, "&mut "),
         own_cells: retained::own_cells(context),
     };
-    format::module(&render(&module), &context.importable("crate"))
+    Unformatted::Module(render(&module), context.importable("crate"))
 }
 
 fn plain(doc: String, name: &str) -> Field {

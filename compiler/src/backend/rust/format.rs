@@ -1,19 +1,48 @@
-//! From text that parses to text that reads well.
+//! From text that parses to text that reads well. Most of the time of this back end is spent here, so a text is laid out
+//! once it is wanted.
 
 use crate::plain;
 use std::collections::{BTreeSet, HashSet};
 use syn::visit::{Visit, visit_path};
 
 /// Modules of the crate and what can be imported from each.
-pub type Importable = [(String, Vec<String>)];
+pub type Importable = Vec<(String, Vec<String>)>;
+
+/// The text of a file.
+pub enum Unformatted {
+    AsItIs(String),
+    /// Complete, and not laid out.
+    Bare(String),
+    /// Neither laid out nor with the imports that its code needs.
+    Module(String, Importable),
+    /// A module that is laid out but for its imports.
+    Long(String, Importable),
+}
+
+impl Unformatted {
+    /// What the text that is laid out is made from.
+    pub fn source(&self) -> &str {
+        match self {
+            Self::AsItIs(text) | Self::Bare(text) | Self::Module(text, _) | Self::Long(text, _) => text,
+        }
+    }
+
+    pub fn formatted(self) -> String {
+        match self {
+            Self::AsItIs(text) => text,
+            Self::Bare(text) => print(&text),
+            Self::Module(text, importable) => module(&text, &importable),
+            Self::Long(text, importable) => with_head(&text, &importable),
+        }
+    }
+}
 
 /// A statement that becomes a comment.
 pub fn comment(text: &str) -> String {
     format!("comment!({:?});\n", plain::line(text))
 }
 
-/// Lays out a module, with the imports that its code needs.
-pub fn module(text: &str, importable: &Importable) -> String {
+fn module(text: &str, importable: &Importable) -> String {
     let file = parse(text);
     let mut used = Used::default();
     used.visit_file(&file);
@@ -26,9 +55,8 @@ pub fn module(text: &str, importable: &Importable) -> String {
     printed(&syn::File { items, ..file })
 }
 
-/// A module that is laid out but for its imports, which are added: they stand before everything else. Nothing else of
-/// it is parsed: it may be long.
-pub fn laid_out(text: &str, importable: &Importable) -> String {
+/// The imports stand before everything else. Nothing else is parsed: it may be long.
+fn with_head(text: &str, importable: &Importable) -> String {
     let importable_names: HashSet<&str> =
         importable.iter().flat_map(|(_, names)| names).map(String::as_str).collect();
     let used: HashSet<&str> = names(text).filter(|word| importable_names.contains(word)).collect();
@@ -83,8 +111,7 @@ fn beginnings(code: &str) -> Vec<&str> {
     found
 }
 
-/// Lays out a file that is complete.
-pub fn print(text: &str) -> String {
+fn print(text: &str) -> String {
     printed(&parse(text))
 }
 
@@ -168,7 +195,7 @@ fn defined(item: &syn::Item) -> Option<String> {
     }
 }
 
-/// Text that does not parse is a mistake of this back end, and nothing of it may be written.
+/// Unformatted that does not parse is a mistake of this back end, and nothing of it may be written.
 fn parse(text: &str) -> syn::File {
     let title = text.lines().next().unwrap_or_default();
     syn::parse_file(text).unwrap_or_else(|error| panic!("what was printed is no Rust: {error}, in `{title}`"))
@@ -194,16 +221,16 @@ mod tests {
     #[test]
     fn imports_are_those_of_the_code() {
         let importable =
-            [("crate::types".to_string(), vec!["Array".to_string(), "Point".into(), "Rows".into()])];
+            vec![("crate::types".to_string(), vec!["Array".to_string(), "Point".into(), "Rows".into()])];
         let text = "//! A module.\n\n/// A `Rows`.\npub const A: Point = made(\"Array\", Shape::Rows, B { Array: 3 });\n";
         let wanted = "//! A module.\n\nuse crate::types::Point;\n\n/// A `Rows`.\n";
-        let found = laid_out(text, &importable);
+        let found = Unformatted::Long(text.into(), importable).formatted();
         assert!(found.starts_with(wanted), "{found}");
     }
 
     #[test]
     #[should_panic(expected = "what was printed is no Rust")]
     fn what_is_no_rust_is_not_written() {
-        print("//! A module.\nfn {}\n");
+        Unformatted::Bare("//! A module.\nfn {}\n".into()).formatted();
     }
 }

@@ -1,7 +1,8 @@
 //! The values of a layout, as constants.
 
 use super::context::Shared;
-use super::{format, render, tables, used_types};
+use super::format::Unformatted;
+use super::{render, tables, used_types};
 use askama::Template;
 
 #[derive(Template)]
@@ -36,7 +37,7 @@ struct RobotView<'a> {
 }
 
 /// `retained_of` is the number of what is retained, if anything is.
-pub fn line(shared: Shared, retained_of: Option<u32>) -> String {
+pub fn line(shared: Shared, retained_of: Option<u32>) -> Unformatted {
     let system = shared.system;
     let interfaces: Vec<InterfaceView> =
         (0..system.model.interfaces.len()).map(|i| interface(shared, i)).collect();
@@ -57,7 +58,7 @@ pub fn line(shared: Shared, retained_of: Option<u32>) -> String {
     };
     let text = render(&view);
     drop(view);
-    format::laid_out(&text, &shared.importable("crate"))
+    Unformatted::Long(text, shared.importable("crate"))
 }
 
 /// A row for each member from which items come, and in it a truth for each to which they may get.

@@ -1,7 +1,8 @@
 //! What outlasts a loss of power: methods that write it as words, and read it again.
 
 use super::context::{Context, Shared};
-use super::{automaton, format, render};
+use super::format::Unformatted;
+use super::{automaton, render};
 use crate::ir::{Automaton, Extent, Scalar, Type};
 use askama::Template;
 use runtime_sim::device::{LAST_COMMAND, PortType};
@@ -22,7 +23,7 @@ pub struct Methods {
     pub cells_write: &'static str,
 }
 
-pub fn module(shared: Shared) -> String {
+pub fn module(shared: Shared) -> Unformatted {
     let interfaces = shared.names.interfaces.iter();
     let view = Module {
         enums: shared.names.enums.iter().map(|e| e.ty.clone()).collect(),
@@ -30,7 +31,7 @@ pub fn module(shared: Shared) -> String {
     };
     let mut importable = shared.importable("crate");
     importable.retain(|(module, _)| module != "crate::retained");
-    format::module(&render(&view), &importable)
+    Unformatted::Module(render(&view), importable)
 }
 
 /// Whether any robot of the line has cells.

@@ -1,7 +1,8 @@
 //! What the layout fixes for each robot: a module for each type.
 
 use super::context::Shared;
-use super::{format, render, tables, used_types};
+use super::format::Unformatted;
+use super::{render, tables, used_types};
 use crate::ir::{AutomatonId, Extent, InterfaceId, Scalar, Value};
 use askama::Template;
 
@@ -11,11 +12,11 @@ struct Modules<'a> {
     modules: Vec<&'a str>,
 }
 
-pub fn modules(shared: Shared) -> String {
+pub fn modules(shared: Shared) -> Unformatted {
     let used = used_types(shared.system).into_iter();
     let mut modules: Vec<&str> = used.map(|id| shared.names.automata[id.0].module.as_str()).collect();
     modules.sort_unstable();
-    format::print(&render(&Modules { modules }))
+    Unformatted::Bare(render(&Modules { modules }))
 }
 
 #[derive(Template)]
@@ -38,7 +39,7 @@ struct Robot<'a> {
 }
 
 /// The robots of a type, in layout order.
-pub fn of_type(shared: Shared, id: AutomatonId) -> String {
+pub fn of_type(shared: Shared, id: AutomatonId) -> Unformatted {
     let names = &shared.names.automata[id.0];
     let numbers = (0..shared.system.instances.len())
         .filter(|number| shared.system.instances[*number].automaton == id)
@@ -46,7 +47,7 @@ pub fn of_type(shared: Shared, id: AutomatonId) -> String {
     let view = OfType { ty: &names.ty, module: &names.module, robots: numbers.collect() };
     let text = render(&view);
     drop(view);
-    format::laid_out(&text, &shared.importable("crate"))
+    Unformatted::Long(text, shared.importable("crate"))
 }
 
 fn robot<'a>(shared: Shared<'a>, number: usize) -> Robot<'a> {

@@ -3,11 +3,12 @@
 use super::automaton::step_uses;
 use super::context::{Context, Shared};
 use super::doc::{doc, documented};
+use super::format::Unformatted;
 use super::modes;
 use super::property;
+use super::render;
 use super::retained;
 use super::walk::{Access, Uses};
-use super::{format, render};
 use crate::ir::{Automaton, AutomatonId, InterfaceId, Variable};
 use askama::Template;
 use runtime_sim::device::{Direction, PortType};
@@ -19,7 +20,7 @@ struct Library {
     modules: Vec<String>,
 }
 
-pub fn library(shared: Shared) -> String {
+pub fn library(shared: Shared) -> Unformatted {
     let mut files: Vec<&str> = shared
         .system
         .model
@@ -39,7 +40,7 @@ pub fn library(shared: Shared) -> String {
         .chain(shared.names.automata.iter().map(|a| a.module.clone()))
         .collect();
     modules.sort();
-    format::print(&render(&Library { files: documented(&files.join(", ")), modules }))
+    Unformatted::Bare(render(&Library { files: documented(&files.join(", ")), modules }))
 }
 
 #[derive(Template)]
@@ -54,11 +55,11 @@ struct EnumView {
     members: Vec<String>,
 }
 
-pub fn kinds(shared: Shared) -> String {
+pub fn kinds(shared: Shared) -> Unformatted {
     let enums = shared.system.model.enums.iter().zip(&shared.names.enums);
     let enums =
         enums.map(|(e, n)| EnumView { doc: doc(&e.doc), ty: n.ty.clone(), members: n.members.clone() });
-    format::module(&render(&Kinds { enums: enums.collect() }), &shared.importable("crate"))
+    Unformatted::Module(render(&Kinds { enums: enums.collect() }), shared.importable("crate"))
 }
 
 #[derive(Template)]
@@ -94,7 +95,7 @@ struct RelationView {
     name: String,
 }
 
-pub fn cells(shared: Shared) -> String {
+pub fn cells(shared: Shared) -> Unformatted {
     let interfaces: Vec<InterfaceView> =
         (0..shared.system.model.interfaces.len()).map(|i| interface(shared, InterfaceId(i))).collect();
     let relations: Vec<RelationView> = (shared.system.model.relations.iter().zip(&shared.names.relations))
@@ -111,9 +112,9 @@ pub fn cells(shared: Shared) -> String {
     let has_cells = interfaces.iter().any(|i| !i.cells.is_empty());
     let retains = shared.system.model.retains();
     let has_wiring = !relations.is_empty() || interfaces.iter().any(|i| !i.parameters.is_empty());
-    format::module(
-        &render(&Cells { interfaces, relations, has_cells, has_wiring, retains }),
-        &shared.importable("crate"),
+    Unformatted::Module(
+        render(&Cells { interfaces, relations, has_cells, has_wiring, retains }),
+        shared.importable("crate"),
     )
 }
 
@@ -263,7 +264,7 @@ pub fn has_alarm_module(shared: Shared) -> bool {
     has_alarms(shared) || shared.system.model.automata.iter().any(property::waits)
 }
 
-pub fn system(shared: Shared) -> String {
+pub fn system(shared: Shared) -> Unformatted {
     let (_, properties) = uses(shared);
     let arguments = contexts(shared).next().map(|c| c.arguments(&properties)).unwrap_or_default();
     let view = SystemView {
@@ -280,10 +281,10 @@ pub fn system(shared: Shared) -> String {
         retains: shared.system.model.retains(),
         has_cells: retained::has_cells(shared),
     };
-    format::print(&render(&view))
+    Unformatted::Bare(render(&view))
 }
 
-pub fn robot(shared: Shared) -> String {
+pub fn robot(shared: Shared) -> Unformatted {
     let (_, properties) = uses(shared);
     let robots: Vec<Variant> = contexts(shared)
         .map(|context| Variant {
@@ -328,7 +329,7 @@ pub fn robot(shared: Shared) -> String {
         properties_parameters: contexts(shared).next().map(|c| c.parameters(&properties)).unwrap_or_default(),
         robots,
     };
-    format::module(&render(&view), &shared.importable("crate"))
+    Unformatted::Module(render(&view), shared.importable("crate"))
 }
 
 impl Shared<'_> {
