@@ -3,7 +3,7 @@
 use super::alarm;
 use super::build::{self, Built};
 use super::contact;
-use super::controllers::{self, Notice};
+use super::controllers::{self, Notice, SharedLibrary};
 use super::dropped;
 use super::io_trace::IoTrace;
 use super::options::{CommissionOptions, Format};
@@ -11,19 +11,23 @@ use super::output::{self, OF_A_RUN, Output};
 use super::pending::{Content, Pending};
 use super::progress::Progress;
 use super::read;
+use super::remembered::remembering;
 use super::results::results;
 use super::trajectories::Request;
 use super::why;
 use crate::Status;
 use autogen::backend::rust::parameters_text;
 use autogen::backend::{Files, Sink, report as page};
+use autogen::parallel::STACK;
 use runtime_sim::line::{Goal, IoDelay};
 use runtime_sim::report::Report;
-use runtime_sim::run::{Recorded, Seen, Stepping, record, run as simulate};
+use runtime_sim::run::{Recorded, Seen, Stepping, record_again, run_again};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
+use std::panic::resume_unwind;
 use std::path::{self, Path, PathBuf};
+use std::thread;
 use std::time::Instant;
 
 pub fn run(options: &CommissionOptions) -> Status {
@@ -83,11 +87,17 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     let output = build::open(&options.build, &built).map_err(refused)?;
     let of_last_run = output.of_a_run();
     let make = |files: &mut dyn Sink| built_files.iter().for_each(|(name, text)| files.file(name, text));
-    build::write(&options.build, &built, &[&make], &output).map_err(refused)?;
+    let compile = || controllers::compiled(&built.project.system, &built.sources, notice(options));
+    let library = thread::scope(|scope| {
+        let thread = thread::Builder::new().stack_size(STACK);
+        let library = thread.spawn_scoped(scope, compile).map_err(|error| error.to_string())?;
+        build::write(&options.build, &built, &[&make], &output).map_err(refused)?;
+        library.join().unwrap_or_else(|panic| resume_unwind(panic)).map_err(End::Failed)
+    })?;
     let names = if options.no_report { &OF_A_RUN[..1] } else { &OF_A_RUN[..] };
     output.may_write_results(names, overwrite).map_err(refused)?;
 
-    let (report, recorded) = report(options, &built, &built_files, delay.clone(), files)?;
+    let (report, recorded) = report(options, &built, &library, &built_files, delay.clone(), files)?;
     let mut report = results(&report, &built.project, &built.sources)?;
     if let Some(waits) = why::at_the_end(&built.project, delay, &report)? {
         report["waits"] = json!(waits);
@@ -149,19 +159,22 @@ pub fn io_delay(text: &str) -> Option<IoDelay> {
     }
 }
 
+fn notice(options: &CommissionOptions) -> Notice {
+    let input = &options.build.input;
+    let is_quiet = input.quiet || input.format != Format::Text;
+    if is_quiet { Notice::None } else { Notice::Compiling }
+}
+
 /// Runs the scenario and writes what was asked for of it.
 fn report(
     options: &CommissionOptions,
     built: &Built,
+    library: &SharedLibrary,
     built_files: &Files,
     delay: IoDelay,
     files: Requested,
 ) -> Result<(Report, Option<Recorded>), String> {
-    let input = &options.build.input;
-    let is_quiet = input.quiet || input.format != Format::Text;
-    let notice = if is_quiet { Notice::None } else { Notice::Compiling };
     let system = &built.project.system;
-    let library = controllers::compiled(system, &built.sources, notice)?;
     let mut line = built.project.plant.clone();
     line.io_delay = delay;
     let mut controllers = library.controllers(&line, &parameters_text(system))?;
@@ -173,7 +186,8 @@ fn report(
     // A row or a line for each scan wants every scan.
     let every_scan = options.every_scan || io_trace.is_some() || hashes.is_some();
     let stepping = if every_scan { Stepping::EveryScan } else { Stepping::Events };
-    let mut progress = Progress::new(!is_quiet && io::stderr().is_terminal());
+    let says = notice(options) == Notice::Compiling;
+    let mut progress = Progress::new(says && io::stderr().is_terminal());
     let mut observe = |seen: &Seen| {
         if let Some(io_trace) = &mut io_trace {
             io_trace.take(seen);
@@ -185,10 +199,16 @@ fn report(
     };
     let is_recorded = !options.no_report || !trajectories.is_empty();
     let (report, recorded) = match is_recorded {
-        false => (simulate(&line, &mut controllers, stepping, &mut observe)?, None),
+        false => {
+            let run = |memory: &mut _| run_again(&line, &mut controllers, stepping, memory, &mut observe);
+            (remembering(&line, run)?, None)
+        }
         true => {
             let watched = if options.no_report { Vec::new() } else { page::watched(system) };
-            let recorded = record(&line, &mut controllers, stepping, &watched, &mut observe)?;
+            let run = |memory: &mut _| {
+                record_again(&line, &mut controllers, stepping, memory, &watched, &mut observe)
+            };
+            let recorded = remembering(&line, run)?;
             if !trajectories.is_empty() {
                 trajectories.write(&built.project, &line, &recorded.paths)?;
             }

@@ -22,6 +22,7 @@ macro_rules! complain {
 
 mod alarm;
 mod build;
+mod cache;
 mod check;
 mod commission;
 mod compare;
@@ -51,6 +52,7 @@ mod pending;
 mod print;
 mod progress;
 mod read;
+mod remembered;
 mod results;
 mod schema;
 mod sweep;

@@ -3,6 +3,7 @@
 use super::commission::io_delay;
 use super::options::{Format, WhyOptions};
 use super::progress::Progress;
+use super::remembered::remembering;
 use super::{load, print};
 use crate::Status;
 use autogen::ir::{FaultKind, Severity};
@@ -14,7 +15,7 @@ use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::machine::Machine;
 use runtime_sim::part::{Primitive, source};
 use runtime_sim::report::Report;
-use runtime_sim::run::{Seen as SeenScan, Stepping, run as simulate};
+use runtime_sim::run::{Seen as SeenScan, Stepping, run_again};
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal};
 
@@ -153,7 +154,8 @@ fn look(project: &Project, question: Question, mut progress: Progress) -> Result
         progress.show(ms / 1000);
         sources.look(seen, ms);
     };
-    let report = simulate(&line, &mut watch, Stepping::Events, &mut observe)?;
+    let run = |memory: &mut _| run_again(&line, &mut watch, Stepping::Events, memory, &mut observe);
+    let report = remembering(&line, run)?;
     progress.end();
     let is_end = at.is_none_or(|at| at + 1 >= report.scans);
     let (mut picture, later) = watch.finish(report.scans);

@@ -38,6 +38,16 @@ impl<Q: Eq + Hash, A: Clone + PartialEq> Answers<Q, A> {
         self.lock().insert(question, answer, self.most);
     }
 
+    /// So many at most, those of late first.
+    pub fn of_late(&self, most: usize, is_wanted: impl Fn(&Q) -> bool) -> Vec<(Q, A)>
+    where
+        Q: Clone,
+    {
+        let known = self.lock();
+        let all = known.recent.iter().chain(&known.older).filter(|(question, _)| is_wanted(question));
+        all.take(most).map(|(question, answer)| (question.clone(), answer.clone())).collect()
+    }
+
     /// The answer to a question: `compute` may depend on nothing else.
     pub fn get(&self, question: Q, compute: impl FnOnce() -> A) -> A {
         let known = self.lock().get(&question, self.most);

@@ -34,6 +34,14 @@ impl Fingerprint {
         self.with(other.0[0]).with(other.0[1])
     }
 
+    pub fn words(self) -> [u64; 2] {
+        self.0
+    }
+
+    pub fn of_words(words: [u64; 2]) -> Self {
+        Self(words)
+    }
+
     /// Of both in any order.
     pub fn sum(self, other: Fingerprint) -> Self {
         Self([self.0[0].wrapping_add(other.0[0]), self.0[1].wrapping_add(other.0[1])])

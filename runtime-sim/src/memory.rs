@@ -1,12 +1,16 @@
 //! What runs of the same machines have in common: motions that were computed, and what was found free of contact.
 
+mod stored;
+
+pub(crate) use stored::take;
+
 use crate::answers::Answers;
 use crate::collision::Boxes;
 use crate::fingerprint::Fingerprint;
 use crate::line::{Kind, Line, Obstacle};
 use crate::machine::Machine;
 use crate::part::Part;
-use crate::part::chain::motions::Motions;
+use crate::part::chain::motions::{Motions, Stored};
 use crate::planner::Planner;
 use crate::point::Point;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -26,6 +30,8 @@ struct Shared {
     surroundings: Option<Surroundings>,
     /// By machine; none for what is no arm.
     motions: Vec<Option<Arc<Motions>>>,
+    /// By machine: what was read back, until it has motions.
+    stored: Vec<Stored>,
     contacts: Arc<Contacts>,
 }
 
@@ -106,11 +112,13 @@ impl Memory {
     /// The motions of a machine; none if it is no arm.
     pub(crate) fn motions(&mut self, line: &Line, machine: usize) -> Option<Arc<Motions>> {
         let mut shared = self.shared(line);
-        let known = shared.motions.get_mut(machine)?;
+        let Shared { motions, stored, .. } = &mut *shared;
+        let known = motions.get_mut(machine)?;
         if known.is_none() {
             let arm = line.machines[machine].arm()?;
             let planner = Planner::of(line, machine);
-            *known = Some(Arc::new(Motions::new(arm, &line.machines[machine], planner)));
+            let stored = std::mem::take(&mut stored[machine]);
+            *known = Some(Arc::new(Motions::new(arm, &line.machines[machine], planner, stored)));
         }
         known.clone()
     }
@@ -120,9 +128,10 @@ impl Memory {
         // Nothing panics while it is locked.
         let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
         if shared.surroundings != self.surroundings {
-            let motions = vec![None; line.machines.len()];
+            let machines = line.machines.len();
+            let (motions, stored) = (vec![None; machines], vec![Stored::default(); machines]);
             let surroundings = self.surroundings.clone();
-            *shared = Shared { surroundings, motions, contacts: Arc::default() };
+            *shared = Shared { surroundings, motions, stored, contacts: Arc::default() };
         }
         shared
     }

@@ -104,9 +104,20 @@ pub fn record(
     watched: &[Word],
     observer: &mut dyn FnMut(&Seen),
 ) -> Result<Recorded, String> {
+    record_again(line, controllers, stepping, &mut Memory::default(), watched, observer)
+}
+
+/// The same with what earlier runs have found about these machines.
+pub fn record_again(
+    line: &Line,
+    controllers: &mut dyn Controllers,
+    stepping: Stepping,
+    memory: &mut Memory,
+    watched: &[Word],
+    observer: &mut dyn FnMut(&Seen),
+) -> Result<Recorded, String> {
     let recorders = Some(Recorders { paths: Recorder::new(line), history: History::new(line, watched) });
-    let (report, recorders) =
-        simulate(line, controllers, stepping, &mut Memory::default(), observer, recorders)?;
+    let (report, recorders) = simulate(line, controllers, stepping, memory, observer, recorders)?;
     let Recordings { paths, history } = recorders.unwrap_or_default();
     Ok(Recorded { report, paths, history })
 }

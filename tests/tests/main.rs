@@ -39,6 +39,7 @@ mod over_places;
 mod plcopen;
 mod postponed;
 mod processes;
+mod remembered;
 mod replaced;
 mod replays;
 mod report;

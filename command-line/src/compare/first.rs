@@ -1,12 +1,13 @@
 //! Where two runs differ first. Both continue side by side, so that nothing has to be kept of either.
 
 use super::super::progress::Progress;
+use super::super::remembered::remembering;
 use super::seen::{self, Seen};
 use autogen::executor::Executor;
 use autogen::ir::{Group, Named, System};
 use autogen::lower::Project;
 use runtime_sim::report::Report;
-use runtime_sim::run::{Seen as SeenScan, Stepping, run as simulate};
+use runtime_sim::run::{Seen as SeenScan, Stepping, run_again};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -118,7 +119,9 @@ fn run(
         to: Some(to),
     };
     let mut observe = |seen: &SeenScan| progress.show(seen.scan * u64::from(project.plant.scan_ms) / 1000);
-    let report = simulate(&project.plant, &mut side, Stepping::Events, &mut observe)?;
+    let plant = &project.plant;
+    let run = |memory: &mut _| run_again(plant, &mut side, Stepping::Events, memory, &mut observe);
+    let report = remembering(plant, run)?;
     progress.end();
     Ok(report)
 }

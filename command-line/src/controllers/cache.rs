@@ -1,12 +1,12 @@
 //! Where compiled controllers are kept: the user's cache, a folder for each set of types.
 
+use super::super::cache;
 use super::super::interrupt::{self, Temporary};
 use super::super::io_error;
 use super::super::lock::Lock;
 use super::super::output::hash;
 use super::Notice;
-use std::env;
-use std::fs::{self, DirBuilder};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -25,7 +25,7 @@ pub struct Entry {
 impl Entry {
     /// What processes that were killed have left there is removed.
     pub fn open(key: &str, notice: Notice) -> Result<Self, String> {
-        let folder = own(&cache()?)?.join(FORMAT).join(key);
+        let folder = cache::folder()?.join(FORMAT).join(key);
         let failed = |e: io::Error| format!("{}: {}", folder.display(), io_error::text(&e));
         fs::create_dir_all(&folder).map_err(failed)?;
         let waits = || notice.say("waiting for another autogen that compiles the same controllers ...");
@@ -67,56 +67,4 @@ impl Entry {
         fs::rename(&made, &library).map_err(failed)?;
         Ok(library)
     }
-}
-
-/// The folder of caches. Relative paths are ignored, as the XDG specification demands: what is in the working
-/// directory may be somebody else's.
-fn cache() -> Result<PathBuf, String> {
-    let set = |name: &str| env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
-    set("XDG_CACHE_HOME").or_else(|| Some(set("HOME")?.join(".cache"))).ok_or_else(|| {
-        "there is no folder for compiled controllers: set HOME or XDG_CACHE_HOME to an absolute path".into()
-    })
-}
-
-/// The tool's folder in it, which nobody else can write: what is in it is run.
-fn own(cache: &Path) -> Result<PathBuf, String> {
-    let folder = cache.join("autogen");
-    let failed = |e: io::Error| format!("{}: {}", folder.display(), io_error::text(&e));
-    fs::create_dir_all(cache).map_err(failed)?;
-    let mut builder = DirBuilder::new();
-    #[cfg(unix)]
-    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-    match builder.create(&folder) {
-        Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(failed(error)),
-        _ => {}
-    }
-    close_to_others(&folder)?;
-    Ok(folder)
-}
-
-#[cfg(unix)]
-fn close_to_others(folder: &Path) -> Result<(), String> {
-    use std::os::unix::fs::{MetadataExt, PermissionsExt};
-    let failed = |e: io::Error| format!("{}: {}", folder.display(), io_error::text(&e));
-    let metadata = folder.symlink_metadata().map_err(failed)?;
-    if !metadata.is_dir() || metadata.uid() != rustix::process::geteuid().as_raw() {
-        return Err(format!(
-            "{}: compiled controllers are kept here and run from here, so it has to be a folder of your own; \
-             set XDG_CACHE_HOME to another place",
-            folder.display()
-        ));
-    }
-    if metadata.mode() & 0o022 != 0 && folder.join(FORMAT).symlink_metadata().is_ok() {
-        // Others could have put there what would be run.
-        fs::remove_dir_all(folder.join(FORMAT)).map_err(failed)?;
-    }
-    if metadata.mode() & 0o077 != 0 {
-        fs::set_permissions(folder, fs::Permissions::from_mode(0o700)).map_err(failed)?;
-    }
-    Ok(())
-}
-
-#[cfg(not(unix))]
-fn close_to_others(_: &Path) -> Result<(), String> {
-    Ok(())
 }

@@ -12,7 +12,7 @@ use autogen::diagnostic::Diagnostic;
 use autogen::fault::reason_of_run;
 use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::memory::Memory;
-use runtime_sim::run::{Seen, Stepping, record, run_again};
+use runtime_sim::run::{Seen, Stepping, record_again, run_again};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
@@ -59,8 +59,10 @@ pub fn page(plan: &Plan, number: RunNumber) -> Result<String, String> {
         let project = &made.project;
         let watched = report::watched(&project.system);
         let ignore = &mut |_: &Seen| {};
-        let recorded =
-            record(&plant, &mut controllers, Stepping::Events, &watched, ignore).map_err(End::NoReport)?;
+        let run = |memory: &mut Memory| {
+            record_again(&plant, &mut controllers, Stepping::Events, memory, &watched, ignore)
+        };
+        let recorded = line.remembering(run).map_err(End::NoReport)?;
         let results = results(&recorded.report, project, &line.shown).map_err(End::NoReport)?;
         Ok(report::html(project, &line.shown, &plant, &recorded, &results))
     }));

@@ -4,6 +4,7 @@ use super::super::controllers::{self, Notice, SharedLibrary};
 use super::super::load::{self, Failure as LoadFailure};
 use super::super::named::Folder;
 use super::super::options::{Format, InputOptions, TestEngine, TestOptions};
+use super::super::remembered::remembering;
 use super::super::{read, titles};
 use super::{OfFile, Outcome, Result as TestResult};
 use autogen::backend::rust::parameters_text;
@@ -13,7 +14,7 @@ use autogen::executor::Executor;
 use autogen::lower::{Project, compile};
 use autogen::source::{Sources, Spanned};
 use autogen::testing::{self, Body, Emitted, Engine, Failure, Played, Setup, StructuredText, Test, Watched};
-use runtime_sim::run::{Stepping, run as simulate};
+use runtime_sim::run::{Stepping, run_again};
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
@@ -241,7 +242,9 @@ fn on(
         }
         Body::Line(expected) => {
             let mut watched = Watched::new(engine.controllers(), system);
-            let report = simulate(&line.project.plant, &mut watched, stepping, &mut |_| {})?;
+            let plant = &line.project.plant;
+            let run = |memory: &mut _| run_again(plant, &mut watched, stepping, memory, &mut |_| {});
+            let report = remembering(plant, run)?;
             notes.clone_from(&report.notes);
             match testing::judge(system, &line.sources, &report, &watched, expected) {
                 Ok(failures) => failures,

@@ -1,4 +1,4 @@
-//! How `commission` compiles the controllers.
+//! What `commission` keeps in the cache: compiled controllers, and what runs have found.
 
 use super::*;
 
@@ -17,5 +17,34 @@ fn flags_that_make_warnings_errors_are_those_of_the_user_s_own_code() {
             .output()
             .expect("autogen can be started");
         assert_eq!(status(&output), 0, "{name}: {}", errors(&output));
+    }
+}
+
+#[test]
+fn what_a_run_has_found_is_kept_and_a_damaged_file_is_replaced() {
+    let folder = folder("found");
+    let cache = folder.join("cache");
+    let layout = example("tending/tending.json");
+    let run = || {
+        let output = autogen_in(&folder, &cache, &["commission", &layout, "-o", "out", "--no-report"]);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        fs::read(folder.join("out/results.json")).expect("results")
+    };
+    let kept = || {
+        let files = contents(&cache.join("autogen/runs-1"));
+        assert_eq!(files.len(), 1);
+        files.into_iter().next().expect("a file")
+    };
+    let results = run();
+    let (file, found) = kept();
+    assert_eq!(run(), results);
+    let path = cache.join("autogen/runs-1").join(file);
+    // Behind the hash: an answer.
+    let mut damaged = found.clone();
+    damaged[80] ^= 1;
+    for other in [&damaged[..], &found[..found.len() / 2], &[]] {
+        fs::write(&path, other).expect("a file that can be written");
+        assert_eq!(run(), results);
+        assert_eq!(kept().1.len(), found.len());
     }
 }

@@ -28,6 +28,7 @@ pub use parameters::{parameters, parameters_text};
 
 use super::{Files, Sink};
 use crate::ir::{AutomatonId, ExprKind, System, Update, UpdateKind};
+use crate::parallel::in_parts;
 use crate::source::Sources;
 use askama::Template;
 use context::{Context, Shared};
@@ -104,8 +105,13 @@ fn crates(system: &System, sources: &Sources, files: &mut dyn Sink) {
     let system = &without_idle_updates(system);
     let names = names::names(system);
     let shared = Shared { system, sources, names: &names };
+    let mut modules: Vec<(String, Unformatted)> = Vec::new();
+    of_types(shared, |path, text| modules.push((path.into(), text)));
+    let formatted = in_parts(&modules, 1, |part| part.iter().map(|(_, text)| text.formatted()).collect());
+    for ((path, _), text) in modules.iter().zip(formatted) {
+        files.file(path, &text);
+    }
     let mut put = |path: &str, text: Unformatted| files.file(path, &text.formatted());
-    of_types(shared, &mut put);
     put("controllers/src/line.rs", line::line(shared, retained_of));
     put("controllers/src/robots.rs", robots::modules(shared));
     for id in used_types(system) {

@@ -27,12 +27,12 @@ impl Unformatted {
         }
     }
 
-    pub fn formatted(self) -> String {
+    pub fn formatted(&self) -> String {
         match self {
-            Self::AsItIs(text) => text,
-            Self::Bare(text) => print(&text),
-            Self::Module(text, importable) => module(&text, &importable),
-            Self::Long(text, importable) => with_head(&text, &importable),
+            Self::AsItIs(text) => text.clone(),
+            Self::Bare(text) => print(text),
+            Self::Module(text, importable) => module(text, importable),
+            Self::Long(text, importable) => with_head(text, importable),
         }
     }
 }

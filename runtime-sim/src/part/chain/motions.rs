@@ -3,11 +3,14 @@
 use super::drive::Target;
 use crate::answers::Answers;
 use crate::collision::reach::{Ball, Chain, Radii};
-use crate::kinematics::arm::{Arm, Joints, Limits};
+use crate::kinematics::arm::{Arm, Joints, Limits, MOST_JOINTS};
 use crate::machine::Machine;
+use crate::memory::take;
 use crate::motion::{Knot, Motion, Path, Travel};
 use crate::planner::{End, Load, Planner, Transfer};
 use crate::point::Point;
+use std::collections::HashMap;
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// All motions of one machine, in all runs of the same line.
@@ -19,6 +22,8 @@ pub struct Motions {
     /// How far the tool goes at most for a metre or a radian of each joint, m.
     radii: Radii,
     known: Answers<Question, Option<Planned>>,
+    /// What other processes have planned.
+    stored: Stored,
 }
 
 /// A motion from rest to rest, and how far the tool goes at most along it.
@@ -34,6 +39,46 @@ struct Question(Vec<u64>);
 
 /// Twice as many are remembered at most: some 10 kB each.
 const MOST: usize = 8_000;
+/// The last words of questions for the planner.
+const PLANNED: RangeInclusive<u64> = 3..=6;
+
+/// Paths of a planner, by what it was asked: past these joints from where the question begins. None where nothing
+/// leads.
+#[derive(Clone, Debug, Default)]
+pub struct Stored(HashMap<Question, Option<Vec<Joints>>>);
+
+impl Stored {
+    pub fn write(&self, words: &mut Vec<u64>) {
+        words.push(self.0.len() as u64);
+        for (question, knots) in &self.0 {
+            words.push(question.0.len() as u64);
+            words.extend(&question.0);
+            let knots = knots.as_deref().unwrap_or_default();
+            words.push(knots.len() as u64);
+            for joints in knots {
+                words.push(joints.len() as u64);
+                words.extend(joints.iter().map(|value| value.to_bits()));
+            }
+        }
+    }
+
+    /// None if these are other words.
+    pub fn read(words: &mut &[u64]) -> Option<Self> {
+        let mut paths = HashMap::new();
+        for _ in 0..take(words)? {
+            let question = (0..take(words)?).map(|_| take(words)).collect::<Option<Vec<_>>>()?;
+            let knots = (0..take(words)?).map(|_| read_joints(words)).collect::<Option<Vec<_>>>()?;
+            paths.insert(Question(question), Some(knots).filter(|knots| !knots.is_empty()));
+        }
+        Some(Self(paths))
+    }
+}
+
+fn read_joints(words: &mut &[u64]) -> Option<Joints> {
+    let count = usize::try_from(take(words)?).ok().filter(|count| *count <= MOST_JOINTS)?;
+    let values = (0..count).map(|_| take(words).map(f64::from_bits)).collect::<Option<Vec<_>>>()?;
+    Some(Joints::new(&values))
+}
 
 impl Question {
     fn new([from, directed]: [&Joints; 2], target: &Target, limits: &Limits) -> Self {
@@ -77,10 +122,25 @@ impl Question {
 }
 
 impl Motions {
-    pub fn new(arm: Arm, machine: &Machine, planner: Option<Planner>) -> Self {
+    pub fn new(arm: Arm, machine: &Machine, planner: Option<Planner>, stored: Stored) -> Self {
         let chain = Chain::new(&arm, machine);
         let radii = chain.radii(chain.last(), &Ball { middle: Point::default(), radius: 0.0 });
-        Self { arm, planner, radii, known: Answers::new(MOST) }
+        Self { arm, planner, radii, known: Answers::new(MOST), stored }
+    }
+
+    /// So many at most of the paths of the planner, those of late first.
+    pub fn to_store(&self, most: usize) -> Stored {
+        let is_planned = |Question(words): &Question| words.last().is_some_and(|kind| PLANNED.contains(kind));
+        let known = self.known.of_late(most, is_planned).into_iter();
+        let mut paths: HashMap<_, _> = known
+            .map(|(question, planned)| (question, planned.map(|it| it.motion.path().knots()[1..].to_vec())))
+            .collect();
+        for (question, knots) in &self.stored.0 {
+            if paths.len() < most && !paths.contains_key(question) {
+                paths.insert(question.clone(), knots.clone());
+            }
+        }
+        Stored(paths)
     }
 
     pub fn arm(&self) -> &Arm {
@@ -97,8 +157,9 @@ impl Motions {
         begin: f64,
     ) -> Option<Planned> {
         let question = Question::new([from, directed], target, limits);
+        let stored = self.stored.0.get(&question);
         let planned = self.known.get(question, || {
-            let motion = self.computed([from, directed], target, limits)?;
+            let motion = self.computed([from, directed], target, limits, stored)?;
             Some(self.measured(motion))
         });
         planned.map(|Planned { motion, tool }| Planned { motion: motion.begun(begin), tool })
@@ -119,6 +180,7 @@ impl Motions {
         [from, directed]: [&Joints; 2],
         target: &Target,
         limits: &Limits,
+        stored: Option<&Option<Vec<Joints>>>,
     ) -> Option<Motion> {
         let knots = match target {
             Target::Place(goal) => self.arm.line_to(*goal, directed)?.into_iter().map(Knot::new).collect(),
@@ -132,8 +194,12 @@ impl Motions {
                 vec![Knot::new(via), Knot::new(self.arm.solve(*goal, &via)?)]
             }
             Target::Round(transfer, load) => {
-                let path = self.planner.as_ref()?.path([from, directed], *load, transfer, limits)?;
-                return Some(Motion::on(path, limits, 0.0));
+                if let Some(knots) = stored {
+                    knots.as_ref()?.iter().copied().map(Knot::new).collect()
+                } else {
+                    let path = self.planner.as_ref()?.path([from, directed], *load, transfer, limits)?;
+                    return Some(Motion::on(path, limits, 0.0));
+                }
             }
         };
         Some(Motion::past(*from, &knots, limits, 0.0))
