@@ -1,7 +1,8 @@
 //! What a run did not come to.
 
+use crate::item::Names;
 use crate::line::{Line, LineButton};
-use crate::plant::Plant;
+use crate::plant::{Missed, Plant};
 use crate::report::{Outcome, carrier_text, seconds};
 
 /// What the scenario has go wrong, or somebody do, that did not happen, a line each.
@@ -58,14 +59,16 @@ pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String>
         };
         timed(format!("press of `{button}`"), press.during.at_scan)
     });
+    let names = Names::new(line);
     let removals = scenario.removals.iter().zip(plant.missed_removals()).map(|(removal, missed)| {
         let what = format!("removal of {}_{}", line.kinds[removal.kind].name, removal.number);
-        let missed = missed.map(|carrier| {
+        let missed = missed.map(|missed| {
             let at_s = seconds(removal.at_scan, line.scan_ms);
-            format!(
-                "not reached: {what} at {at_s:.2} s, when its carrier was: {}",
-                carrier_text(line, carrier)
-            )
+            let why = match missed {
+                Missed::Elsewhere(carrier) => format!("its carrier was: {}", carrier_text(line, carrier)),
+                Missed::Under(upper) => format!("{} lay on it; remove this one first", names.name(upper)),
+            };
+            format!("not reached: {what} at {at_s:.2} s, when {why}")
         });
         missed.or_else(|| timed(what, removal.at_scan))
     });

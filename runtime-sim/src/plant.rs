@@ -32,6 +32,7 @@ use conveyed::Conveyed;
 use conveying::{Among, Conveying, Falls, View};
 pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use gripping::{Lying, NextLook};
+pub use removing::Missed;
 use removing::Removing;
 use trajectory::Trajectory;
 use upright::Upright;

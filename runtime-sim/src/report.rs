@@ -23,6 +23,8 @@ pub struct Report {
     pub notes: Vec<String>,
     /// Code and machine of the fault that ended the run.
     pub fault: Option<(i32, String)>,
+    /// When it came.
+    pub fault_s: Option<f64>,
     /// The faults that did not end it, in the order of their times.
     pub faults: Vec<FaultReport>,
     pub scan_ms: u32,
@@ -114,6 +116,8 @@ pub(crate) struct Outcome {
     pub stands_since: Option<u64>,
     /// Code and machine of the fault that ended the run.
     pub fault: Option<(i32, Option<usize>)>,
+    /// The scan in which it came.
+    pub fault_at: Option<u64>,
     pub scans: u64,
     pub accounts: Vec<Account>,
     /// Of all orders.
@@ -159,7 +163,8 @@ impl Report {
             place: plant.place(id).map_or_else(|| "-".into(), point_text),
         });
         let stands = outcome.stands_since.map(|scan| stands_text(seconds(scan)));
-        let notes = stands.into_iter().chain(notes::not_reached(line, plant, &outcome));
+        let late = outcome.fault_at.filter(|at| at + 1 < outcome.scans).map(|at| late_text(seconds(at)));
+        let notes = stands.into_iter().chain(late).chain(notes::not_reached(line, plant, &outcome));
         Self {
             finished: outcome.finished,
             reason: outcome.reason,
@@ -167,6 +172,7 @@ impl Report {
             fault: outcome.fault.map(|(code, machine)| {
                 (code, machine.map_or_else(String::new, |machine| line.machines[machine].name.clone()))
             }),
+            fault_s: outcome.fault_at.map(seconds),
             faults: outcome.faults,
             alarms: outcome.alarms,
             scan_ms: line.scan_ms,
@@ -217,6 +223,7 @@ impl Report {
                 json.put_object("fault", |json| {
                     json.put_int("code", u64::from(code.unsigned_abs()));
                     json.put_text("robot", robot);
+                    json.put_real("at_s", self.fault_s);
                 });
             }
             if !self.faults.is_empty() {
@@ -308,7 +315,14 @@ impl Report {
 
 fn stands_text(since_s: f64) -> String {
     format!(
-        "the line stands since {since_s:.2} s: `start` has had no edge since; release it before, and press it then"
+        "the line stands: `start` has had no edge since {since_s:.2} s; release it before, and press it then"
+    )
+}
+
+/// The run went on, because the scenario had something that might have cleared the fault.
+fn late_text(at_s: f64) -> String {
+    format!(
+        "the fault is there since {at_s:.2} s: after it there was no edge of `reset` and no loss of power that cleared it"
     )
 }
 

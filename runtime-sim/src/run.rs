@@ -160,7 +160,7 @@ fn simulate(
     let mut agenda = Agenda::new(line, stays, &inputs, analogue);
     let mut unpowered = Unpowered::new(line);
     let mut answer = SystemOutputs::default();
-    // The scan since which the line does not run.
+    // The scan after which an edge of `start` would make the line run that does not.
     let mut stands_since = Some(0);
     let mut trace = Vec::new();
     let mut alarms = Alarms::new(line);
@@ -197,7 +197,8 @@ fn simulate(
             {
                 return Err(format!("the controllers changed the size of an output image in scan {scan}"));
             }
-            stands_since = if answer.running { None } else { stands_since.or(Some(scan)) };
+            let is_ready = !answer.running && !answer.fault && system.run_permit;
+            stands_since = if is_ready { stands_since.or(Some(scan)) } else { None };
             trace.clear();
             controllers.trace(&mut trace);
             let running = if answer.running { scans } else { 0 };
@@ -327,12 +328,14 @@ fn simulate(
         Ok(()) => (finished, reason),
         Err(violation) => (false, format!("bug: {violation}")),
     };
+    let (faults, fault_at) = faults.until_end(fault);
     let outcome = Outcome {
         finished,
         reason,
         stands_since: stands_since
             .filter(|_| fault.is_none() && !answer.fault && operator.has_started(scan, &line.scenario)),
         fault,
+        fault_at,
         scans: scan,
         accounts: accounts.until(scan),
         order_times,
@@ -340,7 +343,7 @@ fn simulate(
         trace_hash: changes.hash(),
         collisions: check.into_contacts(),
         alarms: alarms.until_end(&trace),
-        faults: faults.until_end(fault),
+        faults,
     };
     let recorded = recorders.map(|recorders| Recordings {
         paths: recorders.paths.finish(&plant),

@@ -67,8 +67,6 @@ const Tables = (() => {
 
   function alarms() {
     const rows = Data.raw.alarms.map(([s, machine, text]) => ({ s, machine, text }));
-    const { fault } = Data.results;
-    if (fault) rows.push({ s: Data.results.simulated_s, machine: Data.machines.findIndex(({ name }) => name === fault.robot), text: Data.results.reason });
     const name = ({ machine }) => (machine < 0 ? 'the line' : Data.machines[machine].name);
     return sortedTable([
       { name: 'time', isNumber: true, show: ({ s }) => clock(s * 1000), sort: ({ s }) => s },

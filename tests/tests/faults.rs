@@ -4,7 +4,7 @@ use autogen::executor::Executor;
 use autogen_tests::{Texts, side_by_side};
 use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::report::{AlarmReport, Report};
-use runtime_sim::run::{Recorded, Stepping, record};
+use runtime_sim::run::{Recorded, Stepping, record, run as simulate};
 
 /// A machine of this device and automaton, run for 60 s.
 fn line(device: &str, automaton: &str, scenario: &str) -> Texts {
@@ -671,11 +671,11 @@ fn a_line_that_stands_for_want_of_an_edge_is_told() {
     };
     let stands = |since: &str| {
         vec![format!(
-            "the line stands since {since} s: `start` has had no edge since; release it before, and press it then"
+            "the line stands: `start` has had no edge since {since} s; release it before, and press it then"
         )]
     };
-    assert_eq!(notes(r#""at_s": 0.5"#, "2"), stands("2.00"));
-    assert_eq!(notes(r#""at_s": 0"#, "2"), stands("0.00"));
+    assert_eq!(notes(r#""at_s": 0.5"#, "2"), stands("3.00"));
+    assert_eq!(notes(r#""at_s": 0"#, "2"), stands("3.00"));
     assert_eq!(notes(r#""at_s": 0.5, "for_s": 1"#, "2"), Vec::<String>::new());
     // The pause lasts to the end of the run, and to the last scan before it.
     assert_eq!(notes(r#""at_s": 0.5, "for_s": 1"#, "58.99"), Vec::<String>::new());
@@ -701,7 +701,7 @@ fn a_run_goes_on_if_its_fault_is_reset() {
 
     let never = guarded(OPENS, "OPERATOR]");
     assert_eq!((never.finished, never.fault, never.scans), (false, Some((1, "it".into())), 501));
-    assert_eq!(never.faults, []);
+    assert_eq!((never.faults, never.fault_s, never.notes), (Vec::new(), Some(5.0), Vec::new()));
 
     // No reset comes after it.
     let early = guarded(OPENS, &reset(4.0));
@@ -711,7 +711,11 @@ fn a_run_goes_on_if_its_fault_is_reset() {
     let cleared = guarded(OPENS, &reset(8.0));
     assert_eq!((cleared.finished, &cleared.fault, cleared.simulated_s), (true, &None, 60.0));
     assert_eq!(faults(&cleared), [(1, opened(), 5.0, Some(8.0))]);
-    assert!(cleared.notes[0].starts_with("the line stands since 5.00 s"), "{:?}", cleared.notes);
+    assert!(
+        cleared.notes[0].starts_with("the line stands: `start` has had no edge since 8.00 s"),
+        "{:?}",
+        cleared.notes
+    );
     assert_eq!(cleared.machines[0].account.stopped, 5_500 + 2);
 
     // The cause is still there when the line is started, and nobody resets it again.
@@ -719,6 +723,15 @@ fn a_run_goes_on_if_its_fault_is_reset() {
     let again = guarded(OPENS, &too_early);
     assert_eq!((&again.fault, again.scans), (&Some((1, "it".into())), 581));
     assert_eq!(faults(&again), [(1, opened(), 5.0, Some(5.5))]);
+
+    // The second press begins while the first one lasts: there is no edge, and the run ends.
+    let held = guarded(
+        OPENS,
+        r#"OPERATOR, {"part": "reset", "at_s": 4, "for_s": 3}, {"part": "reset", "at_s": 6, "for_s": 2}]"#,
+    );
+    assert_eq!((&held.fault, held.fault_s), (&Some((1, "it".into())), Some(5.0)));
+    assert!(held.scans > 600, "{}", held.scans);
+    assert!(held.notes[0].starts_with("the fault is there since 5.00 s"), "{:?}", held.notes);
 
     let recovers = reset(8.0).replace(']', r#", {"part": "start", "at_s": 9, "for_s": 0.1}]"#);
     let recovered = guarded(OPENS, &recovers);
@@ -818,6 +831,21 @@ fn a_person_removes_an_item() {
     // It is still to come, so the line is not at a standstill before.
     let late = recorded(2, r#"{"remove": "box_2", "at_s": 50}, {"remove": "box_1", "at_s": 50.5}"#);
     assert_eq!(late.report.notes.len(), 2);
+}
+
+/// `box_5` is laid on `box_1` before 45 s.
+#[test]
+fn an_item_on_which_another_one_lies_is_not_removed() {
+    let mut texts = side_by_side("scenes/palletizer");
+    let removal = r#""operator": [{"remove": "box_1", "at_s": 45}], "orders""#;
+    texts.scenario = texts.scenario.map(|text| text.replace("\"orders\"", removal));
+    let project = texts.project();
+    let report = simulate(&project.plant, &mut Executor::new(&project.system), Stepping::Events, &mut |_| {});
+    let report = report.expect("a line that can be run");
+    assert_eq!(
+        report.notes,
+        ["not reached: removal of box_1 at 45.00 s, when box_5 lay on it; remove this one first"]
+    );
 }
 
 /// In `examples/tending` the arm loses its second part at the mill: it falls to the floor, where a person removes it.

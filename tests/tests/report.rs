@@ -6,7 +6,7 @@ use autogen_tests::{Texts, ariac, browser, side_by_side};
 use runtime_sim::item;
 use runtime_sim::path::table_csv;
 use runtime_sim::run::{Recorded, Seen, Stepping, record};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// Rows of the table of places are so far apart, and rounded to a millionth.
@@ -250,7 +250,7 @@ fn faults_of_the_scenario_are_told() {
             (row[0].as_f64().expect("a number"), row[1].as_i64().expect("a number"), text)
         })
         // Without an item the line itself ends in a fault.
-        .filter(|(_, machine, _)| *machine == 0)
+        .filter(|(_, _, text)| !text.starts_with("fault"))
         .collect();
     let expected =
         [(9.0, 0, "is_red sticks: it reads true"), (11.0, 0, "is_red is free"), (12.5, 0, "second_arm jams")];
@@ -284,4 +284,39 @@ fn times_in_states_add_up_to_the_accounts() {
         assert!((sum - (sums[0] + sums[1] + sums[2])).abs() < 1e-6, "{name}: {sum}");
         assert!(in_states.is_sorted_by(|a, b| a.1 >= b.1), "{name}: {in_states:?}");
     }
+}
+
+/// What the controllers' faults are called is added to the results by those who know the text.
+#[test]
+fn faults_are_listed_once_with_their_machine() {
+    let listed = |reset: Value| {
+        let mut tending = side_by_side("tending/tending");
+        let mut scenario: Value = serde_json::from_str(&tending.scenario.unwrap_or_default()).expect("JSON");
+        scenario["time_limit_s"] = 220.into();
+        scenario["faults"] = json!({"jams": [{"robot": "mill", "part": "door", "at_s": 110, "for_s": 60}]});
+        scenario["operator"] = reset;
+        tending.scenario = Some(scenario.to_string());
+        let run = run(&tending);
+        let rows = data(&run.page)["alarms"].clone();
+        let rows = rows
+            .as_array()
+            .expect("a list")
+            .iter()
+            .filter(|row| row[2].as_str().is_some_and(|text| text.contains("fault")));
+        let machine = |row: &Value| {
+            let number = row[1].as_u64().and_then(|number| usize::try_from(number).ok()).expect("a machine");
+            run.recorded.report.machines[number].name.clone()
+        };
+        let rows = rows.map(|row| (row[0].as_f64().expect("a time"), machine(row), row[2].clone()));
+        rows.collect::<Vec<_>>()
+    };
+    let ended = listed(json!([]));
+    assert_eq!(ended.len(), 1, "{ended:?}");
+    assert_eq!(ended[0].1, "mill");
+    let at_s = ended[0].0;
+    let cleared = listed(json!([{"part": "reset", "at_s": 200, "for_s": 0.2}]));
+    let times: Vec<(f64, &str)> =
+        cleared.iter().map(|(at_s, machine, _)| (*at_s, machine.as_str())).collect();
+    assert_eq!(times, [(at_s, "mill"), (200.0, "mill")], "{cleared:?}");
+    assert!(cleared[0].2.as_str().is_some_and(|text| text.contains(" in Opening")), "{cleared:?}");
 }

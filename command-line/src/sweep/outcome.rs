@@ -3,7 +3,7 @@
 use super::design::{Asked, Design, RunNumber};
 use super::warm_up::{WarmUp, seconds_per_order};
 use crate::{Status, output};
-use runtime_sim::report::Report;
+use runtime_sim::report::{FaultReport, Report};
 use serde_json::{Map, Value, json};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +72,13 @@ impl Outcome {
         }
         self.simulated_s = Some(report.simulated_s);
         self.trace_hash = Some(report.trace_hash_text());
-        self.notes.clone_from(&report.notes);
+        let cleared = report.faults.iter().map(|fault| {
+            let FaultReport { code, machine, state, at_s, .. } = fault;
+            format!(
+                "fault {code} of {machine}, in state {state}, at {at_s:.2} s, after which the run went on"
+            )
+        });
+        self.notes = report.notes.iter().cloned().chain(cleared).collect();
         self.status = match self.finished {
             true => Status::Done,
             false if self.reason.starts_with("bug: ") => Status::Bug,

@@ -216,3 +216,31 @@ fn a_machine_at_its_panel_says_what_has_to_be_done_there() {
         assert_says(&output, lines);
     }
 }
+
+/// The lamp of the door goes out two seconds after the fault.
+#[test]
+fn inputs_of_a_line_in_a_fault_are_those_of_now() {
+    let folder = folder("why_later");
+    let automata = "device post { part door = button {}; in is_open: bool = door.on; }
+automaton Press on post {
+    invariant not is_open else \"the door is open\";
+    initial -> Idle {}
+    state Idle { when is_open -> Idle {} }
+}
+";
+    fs::write(folder.join("press.aut"), automata).expect("a file");
+    let layout =
+        r#"{"specs": "press.aut", "robots": [{"name": "press", "type": "press", "pose": [0, 0, 0]}]}"#;
+    fs::write(folder.join("line.json"), layout).expect("a file");
+    let scenario = r#"{"time_limit_s": 20, "operator": [
+        {"robot": "press", "part": "door", "at_s": 2, "for_s": 2},
+        {"part": "reset", "at_s": 15, "for_s": 0.2}]}"#;
+    fs::write(folder.join("scenario.json"), scenario).expect("a file");
+    let why = |at: &str| {
+        let output = autogen(&folder, &["why", "line.json", "--scenario", "scenario.json", "--at", at]);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        output
+    };
+    assert_says(&why("3"), &["is_open is true, by the device of press at 2.00 s"]);
+    assert_says(&why("6"), &["is_open is false, by the device of press at 4.00 s"]);
+}

@@ -85,13 +85,14 @@ fn reached(model: &Model, automaton: &Automaton) -> Vec<bool> {
 fn endless(state: &State) -> Option<Diagnostic> {
     let longest = constant(&state.within.as_ref()?.0)?;
     let leaves_in_time = |transition: &&Transition| match &transition.clauses[..] {
-        _ if transition.target.is_none() => false,
         [Clause::Condition(Expr { kind: ExprKind::After(time), .. })] => {
             constant(time).is_some_and(|ms| ms < longest)
         }
         _ => transition.is_unconditional(),
     };
-    let leaves = state.transitions.iter().find(leaves_in_time)?;
+    // While one without a target fires, none behind it does.
+    let leaving = state.transitions.iter().take_while(|transition| transition.target.is_some());
+    let leaves = leaving.into_iter().find(leaves_in_time)?;
     let message = format!("`{}` never lasts as long as its `within`", state.name);
     Some(
         Diagnostic::new("W0103", state.place, message)

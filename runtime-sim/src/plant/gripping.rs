@@ -277,12 +277,16 @@ impl Plant {
         }
     }
 
+    /// An item that lies on this one.
+    pub(super) fn lies_on(&self, item: usize) -> Option<usize> {
+        let carrier = self.items[item].carrier;
+        let working = self.machines.get(carrier.machine()?)?;
+        working.lies_on(item, &carrier, &self.items, &self.desk)
+    }
+
     /// An item on which another one lies is not lifted alone.
     fn take_from_under(&mut self, machine: usize, item: usize) {
-        let carrier = self.items[item].carrier;
-        let working = carrier.machine().and_then(|bearing| self.machines.get(bearing));
-        let upper = working.and_then(|working| working.lies_on(item, &carrier, &self.items, &self.desk));
-        if upper.is_some() {
+        if self.lies_on(item).is_some() {
             self.items.crash(machine, "took an item on which another one lies".into());
         }
     }

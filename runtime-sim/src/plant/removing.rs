@@ -10,8 +10,17 @@ use crate::line::Removal;
 pub struct Removing {
     item: Option<usize>,
     at_scan: u64,
-    /// Where it was then instead of on the line: not there yet, in a gripper, a part of another item, or gone.
-    pub missed: Option<Carrier>,
+    /// Why it was not taken away.
+    pub missed: Option<Missed>,
+}
+
+/// Why an item was not taken away.
+#[derive(Clone, Copy, Debug)]
+pub enum Missed {
+    /// It was not on the line: not there yet, in a gripper, a part of another item, or gone.
+    Elsewhere(Carrier),
+    /// This item lay on it.
+    Under(usize),
 }
 
 impl Removing {
@@ -36,15 +45,18 @@ impl Plant {
             let carrier = self.items[item].carrier;
             match (carrier, self.place(item)) {
                 (Carrier::Lane { .. } | Carrier::Place { .. } | Carrier::Floor { .. }, Some(point)) => {
-                    self.items.pass(item, Carrier::Collector, point);
+                    match self.lies_on(item) {
+                        Some(upper) => self.removing[number].missed = Some(Missed::Under(upper)),
+                        None => self.items.pass(item, Carrier::Collector, point),
+                    }
                 }
-                _ => self.removing[number].missed = Some(carrier),
+                _ => self.removing[number].missed = Some(Missed::Elsewhere(carrier)),
             }
         }
     }
 
-    /// Of each removal of the scenario where the item was instead of on the line.
-    pub(crate) fn missed_removals(&self) -> impl Iterator<Item = Option<Carrier>> {
+    /// Of each removal of the scenario why nothing was taken away.
+    pub(crate) fn missed_removals(&self) -> impl Iterator<Item = Option<Missed>> {
         self.removing.iter().map(|removing| removing.missed)
     }
 }

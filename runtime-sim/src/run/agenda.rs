@@ -101,14 +101,15 @@ impl<'a> Agenda<'a> {
         if are_same(latched, inputs) {
             return false;
         }
+        if !last.running {
+            // Who looks at a line that stands looks at what it has latched.
+            return true;
+        }
         let differs =
             |word: &usize| latched.get(*word).map(|w| w.to_bits()) != inputs.get(*word).map(|w| w.to_bits());
         let description = &self.line.machines[machine];
         if description.monitor.panel.iter().any(differs) {
             return true;
-        }
-        if !last.running {
-            return false;
         }
         let Some(state) = description.states.get(states[machine]) else { return true };
         state.reads.iter().any(differs)

@@ -53,11 +53,9 @@ impl<'a> Faults<'a> {
         self.all.last().filter(|fault| fault.cleared.is_none())
     }
 
-    /// Those that did not end the run, in the order of their times.
-    pub fn until_end(mut self, ended: Option<(i32, Option<usize>)>) -> Vec<FaultReport> {
-        if ended.is_some() {
-            self.all.pop();
-        }
+    /// Those that did not end the run, in the order of their times, and the scan in which the one came that did.
+    pub fn until_end(mut self, ended: Option<(i32, Option<usize>)>) -> (Vec<FaultReport>, Option<u64>) {
+        let last = ended.and_then(|_| self.all.pop()).map(|fault| fault.at);
         let name = |machine: usize| self.line.machines[machine].name.clone();
         let state =
             |machine: usize, state: usize| Some(self.line.machines[machine].states.get(state)?.name.clone());
@@ -73,7 +71,7 @@ impl<'a> Faults<'a> {
             at_s: at_s(fault.at),
             cleared_s: fault.cleared.map(at_s),
         });
-        faults.collect()
+        (faults.collect(), last)
     }
 }
 

@@ -35,33 +35,53 @@ pub fn alarms(line: &Line, recorded: &Recorded, signals: &[Signal], results: &Va
                     put(*scan, text.into());
                 }
             }
-            Source::FaultCode => {
-                answers(word).for_each(|(scan, code)| put(scan, format!("fault {code}")));
-                let cleared = word.changes.iter().skip(1).filter(|(_, code)| *code == 0.0);
-                cleared.for_each(|(scan, _)| put(*scan, "the fault is cleared".into()));
-            }
             _ => {}
         }
     }
     let seconds = |scan: u64| (scan * u64::from(line.scan_ms)) as f64 / 1000.0;
     let alarms = alarms.into_iter().map(|(scan, machine, text)| (seconds(scan), machine, text));
-    let mut all: Vec<(f64, i64, String)> = alarms.chain(raised(line, results)).collect();
+    let of_controllers = of_controllers(line, results).chain(raised(line, results));
+    let mut all: Vec<(f64, i64, String)> = alarms.chain(of_controllers).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| (a.1, &a.2).cmp(&(b.1, &b.2))));
     all.into_iter().map(|(time, machine, text)| json!([time, machine, text])).collect()
+}
+
+/// The faults of the controllers, and when they were cleared. The one that ended the run is its reason.
+fn of_controllers<'a>(line: &'a Line, results: &'a Value) -> impl Iterator<Item = (f64, i64, String)> + 'a {
+    let cleared = results["faults"].as_array().into_iter().flatten().flat_map(|fault| {
+        let machine = machine(line, fault);
+        let what = format!("fault {} in {}: {}", fault["code"], text(fault, "state"), text(fault, "text"));
+        let came = fault["at_s"].as_f64().map(|at_s| (at_s, machine, what));
+        let cleared = fault["cleared_s"].as_f64();
+        let cleared = cleared.map(|at_s| (at_s, machine, format!("fault {} is cleared", fault["code"])));
+        [came, cleared]
+    });
+    let last = results.get("fault").map(|fault| {
+        Some((fault["at_s"].as_f64()?, machine(line, fault), text(results, "reason").to_string()))
+    });
+    cleared.chain(last).flatten()
+}
+
+fn text<'v>(value: &'v Value, key: &str) -> &'v str {
+    value[key].as_str().unwrap_or("")
+}
+
+/// Number of the robot that is named here; -1 if it is none.
+fn machine(line: &Line, of: &Value) -> i64 {
+    let named = line.machines.iter().position(|machine| of["robot"] == machine.name.as_str());
+    named.map_or(-1, |machine| machine as i64)
 }
 
 /// The alarms of the table, each at its first time.
 fn raised(line: &Line, results: &Value) -> Vec<(f64, i64, String)> {
     let alarms = results["alarms"].as_array().into_iter().flatten();
     let one = |alarm: &Value| {
-        let robot = alarm["robot"].as_str()?;
-        let machine = line.machines.iter().position(|machine| machine.name == robot)?;
         let again = match alarm["count"].as_u64()? {
             1 => String::new(),
             count => format!(", {count} times until {:.2} s", alarm["last_s"].as_f64()?),
         };
         let text = format!("alarm {}: {}{again}", alarm["code"], alarm["text"].as_str()?);
-        Some((alarm["first_s"].as_f64()?, machine as i64, text))
+        Some((alarm["first_s"].as_f64()?, machine(line, alarm), text))
     };
     alarms.filter_map(one).collect()
 }
