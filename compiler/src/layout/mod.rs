@@ -43,7 +43,7 @@ impl Layout {
 }
 
 /// What a person can operate beside the devices.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Panel {
     /// Permit, start and reset of the whole line.
     #[default]

@@ -13,6 +13,8 @@ pub struct Specs {
     pub sources: Sources,
     pub files: Vec<(FileId, ast::File)>,
     pub layout: Option<Layout>,
+    /// The layout, if it cannot be read.
+    pub unread: Option<FileId>,
     pub names: Names,
     /// Of the scenario; `None`: they could not be read.
     pub kinds: Option<Vec<String>>,
@@ -31,7 +33,7 @@ impl Specs {
         if let Some(layout) = &layout {
             uses_of_layout(&sources, layout, &mut names);
         }
-        Self { sources, files, layout, names, kinds }
+        Self { sources, files, layout, unread: None, names, kinds }
     }
 
     /// Where a name is declared; none if it is in no specification.
