@@ -61,6 +61,13 @@ impl Root {
         }
     }
 
+    pub fn layout(&self) -> Option<&Path> {
+        match self {
+            Root::Layout(path) | Root::Unread(path, _) => Some(path),
+            Root::Folder(_) | Root::Scenario(_) | Root::Tests(_) => None,
+        }
+    }
+
     pub fn check(&self) -> Found {
         match self {
             Root::Layout(path) => layout(path),
