@@ -3,6 +3,7 @@
 use super::client::{Client, uri};
 use super::{new_line, read};
 use serde_json::{Value, json};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 const LAYOUT: &str = r#"{
@@ -28,7 +29,8 @@ fn open(name: &str, file: &str) -> Open {
     let folder = new_line(name);
     let mut client = Client::in_folder(&folder);
     let file = folder.join(file);
-    client.open(&file, &read(&file));
+    let text = if file.exists() { read(&file) } else { "{}".into() };
+    client.open(&file, &text);
     Open { client, file }
 }
 
@@ -190,4 +192,50 @@ fn hover_shows_what_a_key_means() {
     let found = open.hover(&text.replacen("kitting", "kitt^ing", 1));
     assert!(found.as_str().is_some_and(|text| text.contains("automaton Kitting on rail_arm")), "{found}");
     assert_eq!(open.hover("{\"robots\": [{\"name\": \"a\", \"ex^tra\": 1}]}"), Value::Null);
+}
+
+/// Conveyors of which one begins where the other one ends.
+const LANES: &str = r#"device bed {
+    parameter length: real := 1.0;
+    part chute = lane { from: origin * frame(0, 0, 0.7, 0); length: length; width: 0.4; speed: 0.3; };
+    part eye = beam { across: chute; at: length - 0.15; };
+    /// an item is at the end
+    in at_end: bool = eye.sees;
+}
+automaton Bed on bed { initial state S { when at_end -> S {} } }"#;
+const BEDS: &str = r#"{"specs": "beds", "robots": [
+  {"name": "b1", "type": "bed", "pose": [0, 0, 0]},
+  {"name": "b2", "type": "bed", "at": "b1.chute"},
+  {"name": "b3", "type": "bed", "at": ["chute", "b2.chute"]}
+]}"#;
+
+#[test]
+fn lanes_are_known_in_layouts() {
+    let mut open = open("layout-lanes", "line.json");
+    let file = open.file.with_file_name("beds").join("bed.aut");
+    fs::create_dir(file.parent().expect("a folder")).expect("a new folder");
+    fs::write(&file, LANES).expect("a new file");
+    let layout = open.file.clone();
+    open.client.open(&file, LANES);
+    open.client.change(&layout, BEDS);
+    let mut params = at(&file, LANES, LANES.find("chute").expect("it is there"));
+    params["newName"] = "slide".into();
+    let changes = open.client.result("textDocument/rename", params)["changes"].clone();
+    assert_eq!(changes[uri(&file)].as_array().map(Vec::len), Some(2), "{changes}");
+    let places: Vec<Value> = [("chute\"}", 0), ("chute\",", 0), ("chute\"]", 0)]
+        .map(|(word, n)| super::client::place(BEDS, word, n))
+        .into();
+    let edits = changes[uri(&layout)].as_array().expect("edits").clone();
+    let starts: Vec<Value> = edits.iter().map(|edit| edit["range"]["start"].clone()).collect();
+    assert_eq!(starts, places);
+    assert!(edits.iter().all(|edit| edit["newText"] == "slide"), "{edits:?}");
+    // From the layout to the device.
+    let asked = at(&layout, BEDS, BEDS.find("chute").expect("it is there"));
+    let found = open.client.result("textDocument/definition", asked.clone());
+    assert_eq!(found["range"]["start"], super::client::place(LANES, "chute", 0));
+    let hover = open.client.result("textDocument/hover", asked)["contents"]["value"].clone();
+    assert!(hover.as_str().is_some_and(|text| text.contains("part chute = lane")), "{hover}");
+    assert_eq!(open.labels(&BEDS.replacen("b1.chute", "^", 1)), ["b1.chute", "b3.chute"]);
+    assert_eq!(open.labels(&BEDS.replacen("[\"chute\"", "[\"^\"", 1)), ["chute"]);
+    assert_eq!(open.labels(&BEDS.replacen("b2.chute", "^", 1)), ["b1.chute", "b2.chute"]);
 }

@@ -1,6 +1,6 @@
 //! Where a file names what another key or another file has: machines, their parts, kinds of part.
 
-use super::tree::{Place, Step, Wanted};
+use super::tree::{Node, Place, Step, Wanted};
 use super::{Line, Of, Thing};
 use crate::ir::{Automaton, Scalar};
 use crate::lower::bind::{automaton_name, has_type, json_type};
@@ -37,6 +37,14 @@ fn in_layout(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
             let name = text("name");
             of_things(line, |thing, automaton| automaton.is_some() && Some(thing.name.as_str()) != name)
         }
+        ["robots" | "stationary", "*", "at"] => lanes_of_others(line, text("name")),
+        ["robots" | "stationary", "*", "at", "*"] => match (place.path.last(), own()) {
+            (Some(Step::Index(0)), Some(own)) => {
+                let automaton = own.get("type").and_then(Node::text).and_then(|kind| line.automaton(kind));
+                automaton.map_or_else(Vec::new, |automaton| lanes(automaton).map(String::from).collect())
+            }
+            _ => lanes_of_others(line, text("name")),
+        },
         ["may_touch", "*", "pair", "*"] => of_things(line, |_, _| true),
         ["robots" | "stationary", "*", "parameters", parameter, ..] => {
             let automaton = text("type").and_then(|kind| line.automaton(kind));
@@ -51,6 +59,18 @@ fn in_layout(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
         }
         _ => Vec::new(),
     }
+}
+
+fn lanes(automaton: &Automaton) -> impl Iterator<Item = &str> {
+    automaton.device.parts_called("lane").map(|(_, lane)| lane)
+}
+
+/// At whose ends the lane of a machine may begin, as `belt.lane`.
+fn lanes_of_others(line: &Line, own: Option<&str>) -> Vec<String> {
+    let others = machines(line).filter(|(thing, _)| Some(thing.name.as_str()) != own);
+    others
+        .flat_map(|(thing, automaton)| lanes(automaton).map(|lane| format!("{}.{lane}", thing.name)))
+        .collect()
 }
 
 fn keys_of_scenario(line: &Line, path: &[&str]) -> Vec<String> {
