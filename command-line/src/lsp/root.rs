@@ -4,6 +4,7 @@ use super::layouts::{self, Layouts, Names};
 use crate::load::{self, Failure};
 use crate::{named, read};
 use autogen::check;
+use autogen::device::panel;
 use autogen::diagnostic::Diagnostic;
 use autogen::layout::{self, Layout, Panel};
 use autogen::lower::{Input, compile};
@@ -200,6 +201,9 @@ pub fn line(root: &Root) -> Option<json::Line> {
         },
     };
     let (mut trees, _) = trees(&sources, &specs);
+    if names.panel == Panel::Machines {
+        panel::add(&mut trees);
+    }
     let automata = trees.iter().flat_map(|(_, file)| &file.automata);
     let declared = automata.map(|automaton| automaton.name.value.clone()).collect();
     let known = (!kinds.is_empty()).then_some(kinds.as_slice());

@@ -194,6 +194,36 @@ fn hover_shows_what_a_key_means() {
     assert_eq!(open.hover("{\"robots\": [{\"name\": \"a\", \"ex^tra\": 1}]}"), Value::Null);
 }
 
+#[test]
+fn what_a_panel_adds_is_offered() {
+    let mut open = open("scenario-panel", "scenario.json");
+    let layout = open.file.with_file_name("line.json");
+    let text = LAYOUT.replacen(",\n    |", "", 1);
+    open.client.open(&layout, &text);
+    let operated = "{\"operator\": [{\"robot\": \"belt\", \"part\": \"^";
+    assert_eq!(open.labels(operated), [] as [&str; 0]);
+    open.client.change(&layout, &text.replacen('{', "{\"panel\": \"machines\",", 1));
+    let found = open.labels(operated);
+    for part in ["panel_enable", "panel_mode", "panel_step", "panel_jog"] {
+        assert!(found.contains(&part.to_string()), "{part} in {found:?}");
+    }
+    assert!(open.labels("{\"operator\": [{\"robot\": \"^").contains(&"belt".into()));
+    assert!(open.labels("{\"operator\": [{\"robot\": \"arm\", \"part\": \"^").contains(&"panel_verb".into()));
+}
+
+#[test]
+fn items_that_can_be_removed_are_offered() {
+    let mut open = open("scenario-removed", "scenario.json");
+    let kinds = "{\"kinds\": [{\"name\": \"bolt\", \"height\": 1}, {\"name\": \"nut\", \"height\": 1}]";
+    let mut labels = |supply: &str| {
+        open.labels(&format!("{kinds}, \"supply\": {supply}, \"operator\": [{{\"at_s\": 1, \"remove\": \"^"))
+    };
+    assert_eq!(labels("{\"items\": [\"nut\", \"bolt\", \"nut\"]}"), ["bolt_1", "nut_1", "nut_2"]);
+    let found = labels("{\"items\": {\"belt\": [\"nut\"], \"station\": [\"nut\"]}, \"times\": 2}");
+    assert_eq!(found, ["nut_1", "nut_2", "nut_3", "nut_4"]);
+    assert_eq!(labels("{\"seed\": 1}"), ["bolt_1", "nut_1"]);
+}
+
 /// Conveyors of which one begins where the other one ends.
 const LANES: &str = r#"device bed {
     parameter length: real := 1.0;

@@ -1,11 +1,12 @@
 //! Where a file names what another key or another file has: machines, their parts, kinds of part.
 
 use super::tree::{Node, Place, Step, Wanted};
-use super::{Line, Of, Thing};
+use super::{Line, MOST_WORDS, Of, Thing};
 use crate::ir::{Automaton, Scalar};
 use crate::lower::bind::{automaton_name, has_type, json_type};
 use crate::scenario::read::operator::OF_LINE;
 use runtime_sim::device::Direction;
+use std::collections::BTreeMap;
 
 /// The names that a place asks for.
 pub fn names(line: &Line, of: Of, place: &Place) -> Vec<String> {
@@ -107,6 +108,7 @@ fn in_scenario(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
         ["faults", "sensors", "*", "robot"] => of_machines(line, |automaton| inputs(automaton).count() > 0),
         ["faults", "sensors", "*", "signal"] => of_robot(line, place, |automaton| texts(inputs(automaton))),
         ["faults", _, "*", "robot"] => of_machines(line, |automaton| automaton.device.is_commanded()),
+        ["operator", "*", "remove"] => items(line, place),
         ["operator", "*", "robot"] => of_machines(line, |automaton| automaton.device.operated().count() > 0),
         ["operator", "*", "part"] => {
             if named_robot(place).is_none() {
@@ -116,6 +118,27 @@ fn in_scenario(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
         }
         _ => Vec::new(),
     }
+}
+
+/// What the supply brings, by kind and number; the first of each kind, where the supply is no list.
+fn items(line: &Line, place: &Place) -> Vec<String> {
+    let supply = place.around.first().and_then(|scenario| scenario.get("supply"));
+    let list = supply.and_then(|supply| supply.get("items"));
+    let belts = list.into_iter().flat_map(|list| list.members()).filter_map(|belt| belt.value.as_ref());
+    let names = belts.chain(list).flat_map(Node::items).filter_map(Node::text);
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    names.for_each(|name| *counts.entry(name).or_default() += 1);
+    let times = supply.and_then(|supply| supply.get("times")?.number()).unwrap_or(1).min(MOST_WORDS);
+    let of_kind = |kind: &String| match list {
+        Some(_) => counts.get(kind.as_str()).map_or(0, |count| count * times),
+        None => 1,
+    };
+    let most = line.kinds.iter().map(of_kind).max().unwrap_or_default();
+    let numbered = |number: usize| {
+        let brought = line.kinds.iter().filter(move |kind| number <= of_kind(kind));
+        brought.map(move |kind| format!("{kind}_{number}"))
+    };
+    (1..=most).flat_map(numbered).take(MOST_WORDS).collect()
 }
 
 /// The machine that the object names in which the place is.
