@@ -3,7 +3,7 @@
 
 use crate::read;
 use autogen::layout::{self, Panel};
-use autogen::lsp::json::{self, Node};
+use autogen::lsp::json::{self, Member, Node};
 use autogen::source::Sources;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -154,7 +154,16 @@ fn json_files(folder: &Path) -> Vec<PathBuf> {
 
 /// Whether a text is meant as a layout, be it right or not.
 pub fn is_layout(text: &str) -> bool {
-    text.contains("\"robots\"") || text.contains("\"stationary\"")
+    let names_specs = || text.contains("\"specs\"") && json::parse(text).get("specs").is_some();
+    text.contains("\"robots\"") || text.contains("\"stationary\"") || names_specs()
+}
+
+/// Whether a text may be the beginning of a layout: all its keys begin as those of a layout.
+pub fn is_begun(text: &str) -> bool {
+    let tree = json::parse(text);
+    let keys = || layout::KEYS.into_iter().chain(["$schema"]);
+    let is_known = |member: &Member| keys().any(|key| key.starts_with(&member.name));
+    text.trim_start().starts_with('{') && tree.members().iter().all(is_known)
 }
 
 /// Whether a file is meant as a scenario.

@@ -1,7 +1,7 @@
 //! What the client asks about a place in a text.
 
 use super::documents::Documents;
-use super::layouts::Layouts;
+use super::layouts::{self, Layouts};
 use super::published::Files;
 use super::root::{self, Root};
 use autogen::check::names::What;
@@ -58,8 +58,10 @@ impl<'a> OpenJson<'a> {
         let (path, document) = asked.documents.get(asked.uri)?;
         let text = document.text.as_deref()?;
         path.extension().filter(|extension| *extension == "json")?;
-        let root = Root::all(path, text, layouts, asked.folders).into_iter().next()?;
-        let of = if layouts.is_layout(path, text) { Of::Layout } else { Of::Scenario };
+        let found = Root::all(path, text, layouts, asked.folders).into_iter().next();
+        let begun = || layouts::is_begun(text).then(|| Root::Layout(path.into()));
+        let root = found.or_else(begun)?;
+        let of = if root.layout() == Some(path) { Of::Layout } else { Of::Scenario };
         Some(Self { of, line: root::line(&root)?, text, lines: Lines::new(text) })
     }
 

@@ -224,6 +224,44 @@ fn items_that_can_be_removed_are_offered() {
     assert_eq!(labels("{\"seed\": 1}"), ["bolt_1", "nut_1"]);
 }
 
+#[test]
+fn a_file_in_which_a_layout_is_begun_gets_help() {
+    let mut open = open("layout-begun", "new.json");
+    for text in [
+        "{\n  ^\n}",
+        "{\n  \"^\n}",
+        "{ \"^",
+        "{\"specs\": \"specs\",\n  \"ro^\n}",
+        "{\"name\": \"a\", \"^\"}",
+    ] {
+        let found = open.labels(text);
+        assert!(found.contains(&"robots".to_string()), "{text}: {found:?}");
+    }
+    // Of another program.
+    assert_eq!(open.labels("{\"name\": \"a\", \"version\": \"1\", \"^\"}"), [] as [&str; 0]);
+    let text = "{\"name\": \"a\", \"version\": \"1\"}";
+    open.client.change(&open.file, text);
+    assert_eq!(open.client.diagnostics(&open.file), Vec::<Value>::new());
+}
+
+#[test]
+fn a_file_that_was_a_layout_is_one_still() {
+    let mut open = open("layout-still", "line.json");
+    let text = LAYOUT.replacen(",\n    |", "", 1);
+    let layout = open.file.clone();
+    for changed in ["\"robot\"", "\"\"", "\"robot"] {
+        open.client
+            .change(&layout, &text.replacen("\"robots\"", changed, 1).replacen("stationary", "other", 1));
+        assert!(!open.client.diagnostics(&layout).is_empty(), "{changed}");
+    }
+    let typed = text.replacen("\"robots\"", "\"rob^\"", 1);
+    assert!(open.labels(&typed).contains(&"robots".to_string()));
+    // With the key `specs` alone a text is one.
+    open.client.notify("textDocument/didClose", json!({"textDocument": {"uri": uri(&layout)}}));
+    open.client.open(&layout, "{\"specs\": \"specs\"}");
+    assert!(!open.client.diagnostics(&layout).is_empty());
+}
+
 /// Conveyors of which one begins where the other one ends.
 const LANES: &str = r#"device bed {
     parameter length: real := 1.0;

@@ -13,7 +13,7 @@ pub mod routes;
 pub use machine::{machine, obstacle};
 pub use object::{Object, Part};
 pub use paths::OUTSIDE;
-pub use read::{Reading, parse};
+pub use read::{KEYS, Reading, parse};
 pub use routes::Routes;
 
 use crate::source::{FileId, Span, Spanned};
