@@ -307,3 +307,18 @@ fn lanes_are_known_in_layouts() {
     assert_eq!(open.labels(&BEDS.replacen("[\"chute\"", "[\"^\"", 1)), ["chute"]);
     assert_eq!(open.labels(&BEDS.replacen("b2.chute", "^", 1)), ["b1.chute", "b2.chute"]);
 }
+
+#[test]
+fn nodes_and_routes_are_offered() {
+    let mut open = open("layout-nodes", "line.json");
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes");
+    for name in ["branches.aut", "branches.scenario.json"] {
+        fs::copy(examples.join(name), open.file.with_file_name(name)).expect("a copy");
+    }
+    let text = read(&examples.join("branches.json"));
+    let nodes = open.labels(&text.replacen("{\"from\": \"queue\"", "{\"from\": \"^\"", 1));
+    assert!(nodes.contains(&"fork".to_string()) && nodes.len() == 12, "{nodes:?}");
+    assert_eq!(open.labels(&text.replacen("\"to\": \"dock\"", "\"to\": \"^\"", 1)), nodes);
+    assert_eq!(open.labels(&text.replacen("\"home\": \"queue\"", "\"home\": \"^\"", 1)), nodes);
+    assert_eq!(open.labels(&text.replacen("\"hall\": \"floor\"", "\"hall\": \"^\"", 1)), ["floor"]);
+}

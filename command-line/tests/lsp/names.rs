@@ -379,3 +379,31 @@ fn behind_a_sequence_states_and_updates_are_offered() {
     line.text = desks().replace(OUTCOMES, "-> Waiting {}\n    state Last { | }");
     assert_eq!(line.completed(""), ["when"]);
 }
+
+#[test]
+fn words_behind_words_of_the_language_are_offered() {
+    let mut line = line("completion-phrases");
+    line.text = desks().replace("    knows", "    |\n    knows");
+    for (before, words) in [
+        ("any ", &["state"][..]),
+        ("any state ", &["except"]),
+        ("resume ", &["state"]),
+        ("takes ", &["from"]),
+        ("hands ", &["to"]),
+        ("shared x: int 0..9 := 0 by ", &["counter", "handshake", "lock", "owner", "token"]),
+        ("shared x: bool := false by handshake ", &[]),
+        ("invariant n < 5 else ", &["stop", "warn"]),
+        ("invariant n < 5 else stop ", &["line", "machine"]),
+    ] {
+        assert_eq!(line.completed(before), words, "{before}");
+    }
+    line.text = desks() + "|";
+    assert_eq!(
+        line.completed("interface A { shared b: bool by own"),
+        line.completed("interface A { shared b: bool by ")
+    );
+    assert_eq!(line.completed("automaton Other on vehicle is Desk offers "), ["at"]);
+    assert_eq!(line.completed("automaton Other on vehicle is Desk accepts "), ["at"]);
+    assert_eq!(line.completed("device press { out up: bool = p.extend stop "), ["false", "true"]);
+    assert_eq!(line.completed("device press { out up: real = p.extend stop "), [] as [&str; 0]);
+}

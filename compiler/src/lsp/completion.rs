@@ -1,6 +1,7 @@
 //! What can be at a place of a file of automata. The text there is being typed and has errors, so the words before the
 //! place say what is wanted; what names there are is from all that could be read.
 
+mod phrases;
 mod words;
 
 pub use words::{MOST_WORDS, Word};
@@ -157,6 +158,9 @@ impl<'t> Place<'t> {
         let Some((item, name)) = self.item else { return of_language(ITEMS) };
         if self.tokens.last() == Some(&Token::Sign(".")) {
             return self.members(specs, item, name);
+        }
+        if let Some(words) = phrases::behind(item, self.open.len(), self.statement) {
+            return words;
         }
         let first = self.statement.first().and_then(as_word).unwrap_or_default();
         let last = self.statement.last();

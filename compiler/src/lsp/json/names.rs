@@ -2,6 +2,7 @@
 
 use super::tree::{Node, Place, Step, Wanted};
 use super::{Line, MOST_WORDS, Of, Thing};
+use crate::device::Form;
 use crate::ir::{Automaton, Scalar};
 use crate::lower::bind::{automaton_name, has_type, json_type};
 use crate::scenario::read::operator::OF_LINE;
@@ -46,6 +47,10 @@ fn in_layout(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
             }
             _ => lanes_of_others(line, text("name")),
         },
+        ["routes", _, "edges", "*", "from" | "to"] => own().map_or_else(Vec::new, nodes),
+        ["robots" | "stationary", "*", key] => {
+            own().map_or_else(Vec::new, |own| tracks(line, place, own, key))
+        }
         ["may_touch", "*", "pair", "*"] => of_things(line, |_, _| true),
         ["robots" | "stationary", "*", "parameters", parameter, ..] => {
             let automaton = text("type").and_then(|kind| line.automaton(kind));
@@ -57,6 +62,29 @@ fn in_layout(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
                 }),
                 _ => Vec::new(),
             }
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The nodes of routes.
+fn nodes(routes: &Node) -> Vec<String> {
+    let nodes = routes.get("nodes").into_iter().flat_map(|nodes| nodes.members());
+    nodes.map(|node| node.name.clone()).collect()
+}
+
+/// What a key of a vehicle on a track may be: the routes of the layout, or the nodes of its own.
+fn tracks(line: &Line, place: &Place, own: &Node, key: &str) -> Vec<String> {
+    let routes = place.around.first().and_then(|layout| layout.get("routes"));
+    let automaton = own.get("type").and_then(Node::text).and_then(|kind| line.automaton(kind));
+    let (Some(routes), Some(automaton)) = (routes, automaton) else { return Vec::new() };
+    let parameters = &automaton.device.parameters;
+    match parameters.iter().find(|parameter| parameter.name == key).map(|parameter| &parameter.form) {
+        Some(Form::Routes) => routes.members().iter().map(|member| member.name.clone()).collect(),
+        Some(Form::Node) => {
+            let of_routes = parameters.iter().find(|parameter| parameter.form == Form::Routes);
+            let named = of_routes.and_then(|parameter| own.get(&parameter.name)?.text());
+            named.and_then(|name| routes.get(name)).map_or_else(Vec::new, nodes)
         }
         _ => Vec::new(),
     }
