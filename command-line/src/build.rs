@@ -7,8 +7,9 @@ use super::titles::{shown, title};
 use super::{differences, dropped, io_error, load, print, read};
 use crate::Status;
 use autogen::backend::{Files, Folder, Sink, dot, plan, rust, sdf, st};
+use autogen::device::panel;
 use autogen::diagnostic::Diagnostic;
-use autogen::io_map::{self, Conversion, Counting, IoMap, Point};
+use autogen::io_map::{self, Conversion, Counting, IoMap, Kind, Point};
 use autogen::ir::System;
 use autogen::lower::{Outcome, Project, compile};
 use autogen::parallel::in_parts;
@@ -263,14 +264,24 @@ fn io_map(
 /// Says which addresses a table leaves out.
 fn report_gaps(map: &IoMap, points: &[Point]) {
     say!("{} of {} points have an address", map.len(), points.len());
-    let permit = points.iter().position(|p| p.robot.is_empty() && p.port == "run_permit");
-    if permit.and_then(|p| map.wire(p)).is_some_and(|wire| wire.conversion == Conversion::Inverted) {
-        say!("note: run_permit is inverted: a broken wire or a lost fieldbus would permit the line to run");
+    let is_inverted = |at| map.wire(at).is_some_and(|wire| wire.conversion == Conversion::Inverted);
+    let pressed = points.iter().enumerate().filter(|(at, point)| is_pressed(point) && is_inverted(*at));
+    for (_, point) in pressed {
+        say!(
+            "note: {} is inverted: a broken wire or a lost fieldbus would read as TRUE, as if it were pressed",
+            point.name
+        );
     }
     for (robot, missing) in map.gaps(points) {
         let whose = if robot.is_empty() { "the line" } else { robot };
         say!("note: {whose} has points without one: {}", missing.join(", "));
     }
+}
+
+/// A contact that a person closes.
+fn is_pressed(point: &Point) -> bool {
+    let is_of_line = point.robot.is_empty() && ["start", "reset"].contains(&point.port.as_str());
+    is_of_line || point.kind == Kind::Bool && panel::has(&point.port)
 }
 
 /// Says which of the copies the copy of the layout does not lead to.

@@ -33,6 +33,8 @@ mod interrupt;
 #[cfg(target_os = "linux")]
 #[path = "command_line/interrupted_write.rs"]
 mod interrupted_write;
+#[path = "command_line/inverted.rs"]
+mod inverted;
 #[path = "../../tests/src/machines.rs"]
 mod machines;
 #[path = "command_line/misplaced.rs"]

@@ -10,6 +10,8 @@ mod json;
 mod messages;
 #[path = "lsp/names.rs"]
 mod names;
+#[path = "lsp/unread.rs"]
+mod unread;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -2,7 +2,8 @@
 //! of its own folder.
 
 use crate::read;
-use autogen::layout;
+use autogen::layout::{self, Panel};
+use autogen::lsp::json::{self, Member, Node};
 use autogen::source::Sources;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -25,6 +26,19 @@ pub const SCENARIO: &str = "scenario.json";
 #[derive(Debug, Default)]
 pub struct Layouts {
     known: HashMap<PathBuf, (Version, Option<Named>)>,
+    /// Of layouts that are open, when their texts could be read last.
+    last: HashMap<PathBuf, Names>,
+}
+
+/// A layout, and what it names if its text cannot be read.
+pub type Found = (PathBuf, Option<Names>);
+
+/// What a layout names, in its own words.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Names {
+    pub specs: Vec<String>,
+    pub scenario: Option<String>,
+    pub panel: Panel,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,12 +52,13 @@ struct Version {
 struct Named {
     specs: Vec<PathBuf>,
     scenario: Option<PathBuf>,
+    unread: Option<Names>,
 }
 
 impl Layouts {
     /// The layouts that name a file or its folder, in the order of their names, the nearest folder first. `folders` are
     /// those of the workspace.
-    pub fn naming(&mut self, file: &Path, folders: &[PathBuf]) -> Vec<PathBuf> {
+    pub fn naming(&mut self, file: &Path, folders: &[PathBuf]) -> Vec<Found> {
         let mut found = Vec::new();
         let mut left = MOST_BYTES;
         for folder in above(file, folders) {
@@ -54,8 +69,8 @@ impl Layouts {
                         named.specs.iter().any(|spec| spec == file || Some(&**spec) == file.parent());
                     is_spec || named.scenario.as_deref() == Some(file)
                 };
-                if named.is_some_and(|named| names(&named)) {
-                    found.push(path);
+                if let Some(named) = named.filter(names) {
+                    found.push((path, named.unread));
                 }
                 if found.len() == MOST_LAYOUTS {
                     return found;
@@ -67,7 +82,9 @@ impl Layouts {
 
     fn named(&mut self, path: &Path, left: &mut usize) -> Option<Named> {
         if read::opened(path).is_some() {
-            return of_text(path, &read::text(path).ok()?);
+            let text = read::text(path).ok()?;
+            let names = self.is_layout(path, &text).then(|| self.open_names(path, &text))?;
+            return of_names(path, names);
         }
         let data = path.metadata().ok()?;
         let version = Version { changed: data.modified().ok(), bytes: data.len() };
@@ -79,9 +96,36 @@ impl Layouts {
         let text =
             Some(()).filter(|()| version.bytes <= *left as u64).and_then(|()| read::text(path).ok())?;
         *left = left.saturating_sub(text.len());
-        let named = of_text(path, &text);
+        let names = is_layout(&text).then(|| names(path, &text));
+        let named = names.and_then(|names| of_names(path, names));
         self.known.insert(path.into(), (version, named.clone()));
         named
+    }
+
+    /// Whether an open file is a layout, or was one before its text was changed.
+    pub fn is_layout(&self, path: &Path, text: &str) -> bool {
+        self.last.contains_key(path) || is_layout(text)
+    }
+
+    /// A layout that is open.
+    pub fn open(&mut self, path: &Path, text: &str) -> Found {
+        let names = self.open_names(path, text);
+        (path.into(), names.err())
+    }
+
+    fn open_names(&mut self, path: &Path, text: &str) -> Result<Names, Names> {
+        match names(path, text) {
+            Ok(names) => {
+                self.last.insert(path.into(), names.clone());
+                Ok(names)
+            }
+            Err(understood) => Err(self.last.get(path).cloned().unwrap_or(understood)),
+        }
+    }
+
+    /// The text on the disk counts again.
+    pub fn close(&mut self, path: &Path) {
+        self.last.remove(path);
     }
 }
 
@@ -110,7 +154,16 @@ fn json_files(folder: &Path) -> Vec<PathBuf> {
 
 /// Whether a text is meant as a layout, be it right or not.
 pub fn is_layout(text: &str) -> bool {
-    text.contains("\"robots\"") || text.contains("\"stationary\"")
+    let names_specs = || text.contains("\"specs\"") && json::parse(text).get("specs").is_some();
+    text.contains("\"robots\"") || text.contains("\"stationary\"") || names_specs()
+}
+
+/// Whether a text may be the beginning of a layout: all its keys begin as those of a layout.
+pub fn is_begun(text: &str) -> bool {
+    let tree = json::parse(text);
+    let keys = || layout::KEYS.into_iter().chain(["$schema"]);
+    let is_known = |member: &Member| keys().any(|key| key.starts_with(&member.name));
+    text.trim_start().starts_with('{') && tree.members().iter().all(is_known)
 }
 
 /// Whether a file is meant as a scenario.
@@ -118,18 +171,40 @@ pub fn is_scenario(path: &Path) -> bool {
     path.file_name().and_then(|name| name.to_str()).is_some_and(|name| name.ends_with(SCENARIO))
 }
 
-fn of_text(path: &Path, text: &str) -> Option<Named> {
-    if !is_layout(text) {
-        return None;
-    }
+/// What a layout names; as an error what can be understood of a text that cannot be read.
+fn names(path: &Path, text: &str) -> Result<Names, Names> {
     let mut sources = Sources::default();
     let file = sources.add(path.display().to_string(), text);
-    let layout = layout::parse(&sources, file).0?;
+    let Some(layout) = layout::parse(&sources, file).0 else {
+        return Err(understood(&json::parse(text)));
+    };
+    Ok(Names {
+        specs: layout.specs.into_iter().map(|spec| spec.value).collect(),
+        scenario: layout.scenario.map(|scenario| scenario.value),
+        panel: layout.panel,
+    })
+}
+
+pub fn understood(layout: &Node) -> Names {
+    let specs = layout.get("specs");
+    let specs = specs.into_iter().flat_map(|specs| specs.items().iter().chain([specs]));
+    let text = |key| layout.get(key).and_then(Node::text);
+    let panel = Panel::ALL.into_iter().find(|(word, _)| Some(*word) == text("panel"));
+    Names {
+        specs: specs.filter_map(Node::text).map(String::from).collect(),
+        scenario: text("scenario").map(String::from),
+        panel: panel.map_or_else(Panel::default, |(_, panel)| panel),
+    }
+}
+
+fn of_names(path: &Path, names: Result<Names, Names>) -> Option<Named> {
+    let unread = names.as_ref().err().cloned();
+    let (Ok(names) | Err(names)) = names;
     let folder = path.parent()?;
     let real = |name: &str| read::real(&folder.join(name));
-    let scenario = layout.scenario.as_ref().map_or(SCENARIO, |scenario| &scenario.value);
     Some(Named {
-        specs: layout.specs.iter().take(MOST_SPECS).filter_map(|spec| real(&spec.value)).collect(),
-        scenario: real(scenario),
+        specs: names.specs.iter().take(MOST_SPECS).filter_map(|spec| real(spec)).collect(),
+        scenario: real(names.scenario.as_deref().unwrap_or(SCENARIO)),
+        unread,
     })
 }

@@ -38,7 +38,8 @@ impl Published {
                 refused: Some("this is a bug in autogen, not in this file".into()),
                 ..Found::default()
             });
-            add(&mut new, open, &found, documents);
+            let holders = root.layout().map_or_else(|| open.clone(), |layout| vec![layout.into()]);
+            add(&mut new, open, &holders, &found, documents);
         }
         let files: BTreeSet<&PathBuf> = self.told.keys().chain(new.keys()).collect();
         let mut messages = Vec::new();
@@ -61,8 +62,15 @@ impl Published {
     }
 }
 
-/// Of what several roots find in a file each is reported once.
-fn add(new: &mut BTreeMap<PathBuf, Vec<Diagnostic>>, open: &[PathBuf], found: &Found, documents: &Documents) {
+/// Of what several roots find in a file each is reported once. What is wrong with a text that is no file is shown in
+/// the files that hold it.
+fn add(
+    new: &mut BTreeMap<PathBuf, Vec<Diagnostic>>,
+    open: &[PathBuf],
+    holders: &[PathBuf],
+    found: &Found,
+    documents: &Documents,
+) {
     let mut tell = |path: &Path, diagnostic: Diagnostic| {
         let of_file = new.entry(path.into()).or_default();
         if !of_file.contains(&diagnostic) {
@@ -75,8 +83,14 @@ fn add(new: &mut BTreeMap<PathBuf, Vec<Diagnostic>>, open: &[PathBuf], found: &F
     let files = Files::new(&found.sources, documents);
     for diagnostic in &found.diagnostics {
         let file = diagnostic.place.file;
-        if let Some(path) = &files.paths[file.0 as usize] {
-            tell(path, diagnostics::shown(diagnostic, files.lines(file), &files));
+        let lines = files.lines(file);
+        match &files.paths[file.0 as usize] {
+            Some(path) => tell(path, diagnostics::shown(diagnostic, lines, &files)),
+            None => {
+                let name = &found.sources.file(file).name;
+                let shown = diagnostics::of_built_in(diagnostic, name, lines, &files);
+                holders.iter().for_each(|path| tell(path, shown.clone()));
+            }
         }
     }
 }

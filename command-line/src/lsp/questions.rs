@@ -58,8 +58,10 @@ impl<'a> OpenJson<'a> {
         let (path, document) = asked.documents.get(asked.uri)?;
         let text = document.text.as_deref()?;
         path.extension().filter(|extension| *extension == "json")?;
-        let root = Root::all(path, text, layouts, asked.folders).into_iter().next()?;
-        let of = if layouts::is_layout(text) { Of::Layout } else { Of::Scenario };
+        let found = Root::all(path, text, layouts, asked.folders).into_iter().next();
+        let begun = || layouts::is_begun(text).then(|| Root::Layout(path.into()));
+        let root = found.or_else(begun)?;
+        let of = if root.layout() == Some(path) { Of::Layout } else { Of::Scenario };
         Some(Self { of, line: root::line(&root)?, text, lines: Lines::new(text) })
     }
 

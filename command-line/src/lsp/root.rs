@@ -1,11 +1,12 @@
 //! What is checked together: a layout with all that it names, or the automata of a folder that no layout names.
 
-use super::layouts::{self, Layouts};
+use super::layouts::{self, Layouts, Names};
 use crate::load::{self, Failure};
 use crate::{named, read};
 use autogen::check;
+use autogen::device::panel;
 use autogen::diagnostic::Diagnostic;
-use autogen::layout::{Layout, Panel};
+use autogen::layout::{self, Layout, Panel};
 use autogen::lower::{Input, compile};
 use autogen::lsp::json;
 use autogen::lsp::specs::{Specs, trees};
@@ -17,6 +18,8 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Root {
     Layout(PathBuf),
+    /// A layout that cannot be read, with what it names nevertheless.
+    Unread(PathBuf, Names),
     /// Its automata, without a layout.
     Folder(PathBuf),
     /// A scenario that no layout has.
@@ -40,21 +43,36 @@ impl Root {
         let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
         let layouts = |known: &mut Layouts, alone: Root| match known.naming(file, folders) {
             found if found.is_empty() => vec![alone],
-            found => found.into_iter().map(Root::Layout).collect(),
+            found => found.into_iter().map(Root::of).collect(),
         };
         match extension {
             "aut" => layouts(known, Root::Folder(file.parent().unwrap_or(file).into())),
             "test" => vec![Root::Tests(file.into())],
-            "json" if layouts::is_layout(text) => vec![Root::Layout(file.into())],
+            "json" if known.is_layout(file, text) => vec![Root::of(known.open(file, text))],
             "json" if layouts::is_scenario(file) => layouts(known, Root::Scenario(file.into())),
-            "json" => known.naming(file, folders).into_iter().map(Root::Layout).collect(),
+            "json" => known.naming(file, folders).into_iter().map(Root::of).collect(),
             _ => Vec::new(),
+        }
+    }
+
+    fn of((path, unread): layouts::Found) -> Root {
+        match unread {
+            Some(names) => Root::Unread(path, names),
+            None => Root::Layout(path),
+        }
+    }
+
+    pub fn layout(&self) -> Option<&Path> {
+        match self {
+            Root::Layout(path) | Root::Unread(path, _) => Some(path),
+            Root::Folder(_) | Root::Scenario(_) | Root::Tests(_) => None,
         }
     }
 
     pub fn check(&self) -> Found {
         match self {
             Root::Layout(path) => layout(path),
+            Root::Unread(path, names) => unread(path, names),
             Root::Folder(path) => folder(path),
             Root::Scenario(path) => one(path, |sources, file| scenario::parse(sources, file).1),
             Root::Tests(path) => one(path, |sources, file| {
@@ -85,6 +103,25 @@ fn layout(path: &Path) -> Found {
             Found { refused: Some(why), ..Found::default() }
         }
     }
+}
+
+/// What is wrong with the text of a layout, and with what it names, as far as that does not depend on the layout.
+fn unread(path: &Path, names: &Names) -> Found {
+    let Some(text) = read::text(path).ok().filter(|text| load::begins_as_object(text)) else {
+        return layout(path);
+    };
+    let mut sources = Sources::default();
+    let file = sources.add(path.display().to_string(), text.as_str());
+    let mut diagnostics = layout::parse(&sources, file).1;
+    let Some(texts) = texts_named(&mut sources, path, names) else {
+        let mut sources = Sources::default();
+        sources.add(path.display().to_string(), text);
+        return Found { sources, diagnostics, refused: None };
+    };
+    let kinds = scenario::kinds(&sources, texts.scenario);
+    diagnostics.extend(scenario::parse(&sources, texts.scenario).1);
+    diagnostics.extend(of_automata(&sources, &texts.specs, kinds.as_deref(), names.panel));
+    Found { sources, diagnostics, refused: None }
 }
 
 fn one(path: &Path, check: impl Fn(&Sources, FileId) -> Vec<Diagnostic>) -> Found {
@@ -124,6 +161,14 @@ pub fn specs(root: &Root) -> Option<Specs> {
             let kinds = scenario::kinds(&sources, texts.scenario);
             Some(Specs::new(sources, &texts.specs, texts.layout.0, kinds))
         }
+        Root::Unread(path, names) => {
+            let mut sources = Sources::default();
+            let layout = load::add(&mut sources, path).ok()?;
+            let texts = texts_named(&mut sources, path, names)?;
+            let kinds = scenario::kinds(&sources, texts.scenario);
+            let specs = Specs::new(sources, &texts.specs, None, kinds);
+            Some(Specs { unread: Some(layout), ..specs })
+        }
         Root::Folder(path) => {
             let (sources, files, kinds) = texts(path).ok()?;
             Some(Specs::new(sources, &files, None, kinds))
@@ -135,15 +180,19 @@ pub fn specs(root: &Root) -> Option<Specs> {
 /// What is known of the line to which a layout or a scenario belongs, however wrong its texts are just now.
 pub fn line(root: &Root) -> Option<json::Line> {
     let path = match root {
-        Root::Layout(path) | Root::Scenario(path) => path,
+        Root::Layout(path) | Root::Unread(path, _) | Root::Scenario(path) => path,
         Root::Folder(_) | Root::Tests(_) => return None,
     };
     let text = read::text(path).ok()?;
     let tree = json::parse(&text);
     let mut sources = Sources::default();
+    let names = match root {
+        Root::Unread(_, names) => names.clone(),
+        _ => layouts::understood(&tree),
+    };
     let (specs, kinds) = match root {
         Root::Scenario(_) => (of_library(&mut sources), json::kinds(&tree)),
-        _ => match texts_named(&mut sources, path, &tree) {
+        _ => match texts_named(&mut sources, path, &names) {
             Some(texts) => {
                 let kinds = json::kinds(&json::parse(&sources.file(texts.scenario).text));
                 (texts.specs, kinds)
@@ -152,6 +201,9 @@ pub fn line(root: &Root) -> Option<json::Line> {
         },
     };
     let (mut trees, _) = trees(&sources, &specs);
+    if names.panel == Panel::Machines {
+        panel::add(&mut trees);
+    }
     let automata = trees.iter().flat_map(|(_, file)| &file.automata);
     let declared = automata.map(|automaton| automaton.name.value.clone()).collect();
     let known = (!kinds.is_empty()).then_some(kinds.as_slice());
@@ -167,20 +219,13 @@ fn of_library(sources: &mut Sources) -> Vec<FileId> {
     library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect()
 }
 
-/// The other texts of a layout, by what can be read of it.
-fn texts_named(sources: &mut Sources, path: &Path, layout: &json::Node) -> Option<load::Texts> {
-    let specs = layout.get("specs");
-    let specs: Vec<&str> = specs
-        .into_iter()
-        .flat_map(|specs| specs.items().iter().chain([specs]))
-        .filter_map(json::Node::text)
-        .collect();
-    let scenario = layout.get("scenario").and_then(json::Node::text);
-    let mut named = json!({"robots": [], "specs": specs});
-    if let Some(scenario) = scenario {
-        named["scenario"] = scenario.into();
+/// The other texts of a layout that names these.
+fn texts_named(sources: &mut Sources, path: &Path, names: &Names) -> Option<load::Texts> {
+    let mut named = json!({"robots": [], "specs": names.specs});
+    if let Some(scenario) = &names.scenario {
+        named["scenario"] = scenario.as_str().into();
     }
-    let file = sources.add(path.display().to_string(), named.to_string());
+    let file = sources.add("the names of a layout", named.to_string());
     load::texts_of(sources, path, file, &[], None).ok()
 }
 
@@ -189,12 +234,22 @@ fn folder(path: &Path) -> Found {
         Ok(texts) => texts,
         Err(why) => return Found { refused: Some(why), ..Found::default() },
     };
-    let (trees, mut diagnostics) = trees(&sources, &files);
-    if diagnostics.is_empty() {
-        diagnostics = match check::check(&sources, &trees, kinds.as_deref()) {
-            Ok(checked) => lint::warnings(&checked, &trees, Panel::Line),
-            Err(found) => found,
-        };
-    }
+    let diagnostics = of_automata(&sources, &files, kinds.as_deref(), Panel::Line);
     Found { sources, diagnostics, refused: None }
+}
+
+fn of_automata(
+    sources: &Sources,
+    files: &[FileId],
+    kinds: Option<&[String]>,
+    panel: Panel,
+) -> Vec<Diagnostic> {
+    let (trees, unread) = trees(sources, files);
+    if !unread.is_empty() {
+        return unread;
+    }
+    match check::check(sources, &trees, kinds) {
+        Ok(checked) => lint::warnings(&checked, &trees, panel),
+        Err(found) => found,
+    }
 }

@@ -209,7 +209,8 @@ impl<W: Write> Server<W> {
                     return Next::Ready;
                 };
                 let opened = params.text_document;
-                self.documents.open(opened.uri, opened.version, opened.text);
+                self.documents.open(opened.uri.clone(), opened.version, opened.text);
+                self.note_layout(&opened.uri);
             }
             (Stage::Running, LspNotificationMethod::TextDocumentDidChange) => {
                 let Ok(params) = serde_json::from_value::<DidChangeTextDocumentParams>(params) else {
@@ -223,7 +224,11 @@ impl<W: Write> Server<W> {
                 let Ok(params) = serde_json::from_value::<DidCloseTextDocumentParams>(params) else {
                     return Next::Ready;
                 };
-                self.documents.close(&params.text_document.uri);
+                let uri = &params.text_document.uri;
+                if let Some((path, _)) = self.documents.get(uri) {
+                    self.layouts.close(path);
+                }
+                self.documents.close(uri);
             }
             // Another file may have changed on the disk.
             (Stage::Running, LspNotificationMethod::TextDocumentDidSave)
@@ -232,6 +237,18 @@ impl<W: Write> Server<W> {
         }
         self.questions.forget();
         Next::Changed
+    }
+
+    /// What a layout names when it is opened is still known when it cannot be read.
+    fn note_layout(&mut self, uri: &Uri) {
+        let Some((path, document)) = self.documents.get(uri) else { return };
+        let Some(text) = document.text.as_deref().filter(|_| path.extension().is_some_and(|e| e == "json"))
+        else {
+            return;
+        };
+        if self.layouts.is_layout(path, text) {
+            self.layouts.open(path, text);
+        }
     }
 
     /// Checks what is open, and tells the client what is new.

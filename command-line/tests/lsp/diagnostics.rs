@@ -4,6 +4,7 @@ use super::client::{Client, place, uri};
 use super::{new_line, read};
 use serde_json::{Value, json};
 use std::fs;
+use std::path::Path;
 
 fn codes(found: &[Value]) -> Vec<&str> {
     found.iter().map(|diagnostic| diagnostic["code"].as_str().unwrap_or("none")).collect()
@@ -138,4 +139,27 @@ fn formatting_is_that_of_the_command() {
     // Nothing is done to a text with errors.
     client.change(&file, &text.replace(';', ""));
     assert_eq!(client.result("textDocument/formatting", params), Value::Null);
+}
+
+#[test]
+fn what_is_wrong_in_a_built_in_text_is_shown_in_the_layout() {
+    let folder = new_line("built-in");
+    fs::remove_file(folder.join("scenario.json")).expect("the scenario");
+    let (layout, automata) = (folder.join("line.json"), folder.join("queue_of_items.aut"));
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes/queue_of_items.aut");
+    fs::copy(example, &automata).expect("a copy");
+    // Orders of the built-in scenario have no station here.
+    let text = r#"{"specs": "queue_of_items.aut", "robots": [{"name": "queue", "type": "queue_of_items", "pose": [0, 0, 0]}]}"#;
+    let mut client = Client::in_folder(&folder);
+    client.open(&layout, text);
+    client.open(&automata, &read(&automata));
+    let found = client.diagnostics(&layout);
+    assert!(codes(&found).contains(&"E0135"), "{found:?}");
+    let of_it = found.iter().find(|one| one["code"] == "E0135").expect("it is there");
+    assert_eq!(of_it["range"]["start"], json!({"line": 0, "character": 0}));
+    assert!(
+        of_it["message"].as_str().is_some_and(|text| text.contains("in the built-in scenario")),
+        "{of_it}"
+    );
+    assert!(!codes(&client.diagnostics(&automata)).contains(&"E0135"));
 }

@@ -3,6 +3,7 @@
 use super::client::{Client, uri};
 use super::{new_line, read};
 use serde_json::{Value, json};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 const LAYOUT: &str = r#"{
@@ -28,7 +29,8 @@ fn open(name: &str, file: &str) -> Open {
     let folder = new_line(name);
     let mut client = Client::in_folder(&folder);
     let file = folder.join(file);
-    client.open(&file, &read(&file));
+    let text = if file.exists() { read(&file) } else { "{}".into() };
+    client.open(&file, &text);
     Open { client, file }
 }
 
@@ -190,4 +192,133 @@ fn hover_shows_what_a_key_means() {
     let found = open.hover(&text.replacen("kitting", "kitt^ing", 1));
     assert!(found.as_str().is_some_and(|text| text.contains("automaton Kitting on rail_arm")), "{found}");
     assert_eq!(open.hover("{\"robots\": [{\"name\": \"a\", \"ex^tra\": 1}]}"), Value::Null);
+}
+
+#[test]
+fn what_a_panel_adds_is_offered() {
+    let mut open = open("scenario-panel", "scenario.json");
+    let layout = open.file.with_file_name("line.json");
+    let text = LAYOUT.replacen(",\n    |", "", 1);
+    open.client.open(&layout, &text);
+    let operated = "{\"operator\": [{\"robot\": \"belt\", \"part\": \"^";
+    assert_eq!(open.labels(operated), [] as [&str; 0]);
+    open.client.change(&layout, &text.replacen('{', "{\"panel\": \"machines\",", 1));
+    let found = open.labels(operated);
+    for part in ["panel_enable", "panel_mode", "panel_step", "panel_jog"] {
+        assert!(found.contains(&part.to_string()), "{part} in {found:?}");
+    }
+    assert!(open.labels("{\"operator\": [{\"robot\": \"^").contains(&"belt".into()));
+    assert!(open.labels("{\"operator\": [{\"robot\": \"arm\", \"part\": \"^").contains(&"panel_verb".into()));
+}
+
+#[test]
+fn items_that_can_be_removed_are_offered() {
+    let mut open = open("scenario-removed", "scenario.json");
+    let kinds = "{\"kinds\": [{\"name\": \"bolt\", \"height\": 1}, {\"name\": \"nut\", \"height\": 1}]";
+    let mut labels = |supply: &str| {
+        open.labels(&format!("{kinds}, \"supply\": {supply}, \"operator\": [{{\"at_s\": 1, \"remove\": \"^"))
+    };
+    assert_eq!(labels("{\"items\": [\"nut\", \"bolt\", \"nut\"]}"), ["bolt_1", "nut_1", "nut_2"]);
+    let found = labels("{\"items\": {\"belt\": [\"nut\"], \"station\": [\"nut\"]}, \"times\": 2}");
+    assert_eq!(found, ["nut_1", "nut_2", "nut_3", "nut_4"]);
+    assert_eq!(labels("{\"seed\": 1}"), ["bolt_1", "nut_1"]);
+}
+
+#[test]
+fn a_file_in_which_a_layout_is_begun_gets_help() {
+    let mut open = open("layout-begun", "new.json");
+    for text in [
+        "{\n  ^\n}",
+        "{\n  \"^\n}",
+        "{ \"^",
+        "{\"specs\": \"specs\",\n  \"ro^\n}",
+        "{\"name\": \"a\", \"^\"}",
+    ] {
+        let found = open.labels(text);
+        assert!(found.contains(&"robots".to_string()), "{text}: {found:?}");
+    }
+    // Of another program.
+    assert_eq!(open.labels("{\"name\": \"a\", \"version\": \"1\", \"^\"}"), [] as [&str; 0]);
+    let text = "{\"name\": \"a\", \"version\": \"1\"}";
+    open.client.change(&open.file, text);
+    assert_eq!(open.client.diagnostics(&open.file), Vec::<Value>::new());
+}
+
+#[test]
+fn a_file_that_was_a_layout_is_one_still() {
+    let mut open = open("layout-still", "line.json");
+    let text = LAYOUT.replacen(",\n    |", "", 1);
+    let layout = open.file.clone();
+    for changed in ["\"robot\"", "\"\"", "\"robot"] {
+        open.client
+            .change(&layout, &text.replacen("\"robots\"", changed, 1).replacen("stationary", "other", 1));
+        assert!(!open.client.diagnostics(&layout).is_empty(), "{changed}");
+    }
+    let typed = text.replacen("\"robots\"", "\"rob^\"", 1);
+    assert!(open.labels(&typed).contains(&"robots".to_string()));
+    // With the key `specs` alone a text is one.
+    open.client.notify("textDocument/didClose", json!({"textDocument": {"uri": uri(&layout)}}));
+    open.client.open(&layout, "{\"specs\": \"specs\"}");
+    assert!(!open.client.diagnostics(&layout).is_empty());
+}
+
+/// Conveyors of which one begins where the other one ends.
+const LANES: &str = r#"device bed {
+    parameter length: real := 1.0;
+    part chute = lane { from: origin * frame(0, 0, 0.7, 0); length: length; width: 0.4; speed: 0.3; };
+    part eye = beam { across: chute; at: length - 0.15; };
+    /// an item is at the end
+    in at_end: bool = eye.sees;
+}
+automaton Bed on bed { initial state S { when at_end -> S {} } }"#;
+const BEDS: &str = r#"{"specs": "beds", "robots": [
+  {"name": "b1", "type": "bed", "pose": [0, 0, 0]},
+  {"name": "b2", "type": "bed", "at": "b1.chute"},
+  {"name": "b3", "type": "bed", "at": ["chute", "b2.chute"]}
+]}"#;
+
+#[test]
+fn lanes_are_known_in_layouts() {
+    let mut open = open("layout-lanes", "line.json");
+    let file = open.file.with_file_name("beds").join("bed.aut");
+    fs::create_dir(file.parent().expect("a folder")).expect("a new folder");
+    fs::write(&file, LANES).expect("a new file");
+    let layout = open.file.clone();
+    open.client.open(&file, LANES);
+    open.client.change(&layout, BEDS);
+    let mut params = at(&file, LANES, LANES.find("chute").expect("it is there"));
+    params["newName"] = "slide".into();
+    let changes = open.client.result("textDocument/rename", params)["changes"].clone();
+    assert_eq!(changes[uri(&file)].as_array().map(Vec::len), Some(2), "{changes}");
+    let places: Vec<Value> = [("chute\"}", 0), ("chute\",", 0), ("chute\"]", 0)]
+        .map(|(word, n)| super::client::place(BEDS, word, n))
+        .into();
+    let edits = changes[uri(&layout)].as_array().expect("edits").clone();
+    let starts: Vec<Value> = edits.iter().map(|edit| edit["range"]["start"].clone()).collect();
+    assert_eq!(starts, places);
+    assert!(edits.iter().all(|edit| edit["newText"] == "slide"), "{edits:?}");
+    // From the layout to the device.
+    let asked = at(&layout, BEDS, BEDS.find("chute").expect("it is there"));
+    let found = open.client.result("textDocument/definition", asked.clone());
+    assert_eq!(found["range"]["start"], super::client::place(LANES, "chute", 0));
+    let hover = open.client.result("textDocument/hover", asked)["contents"]["value"].clone();
+    assert!(hover.as_str().is_some_and(|text| text.contains("part chute = lane")), "{hover}");
+    assert_eq!(open.labels(&BEDS.replacen("b1.chute", "^", 1)), ["b1.chute", "b3.chute"]);
+    assert_eq!(open.labels(&BEDS.replacen("[\"chute\"", "[\"^\"", 1)), ["chute"]);
+    assert_eq!(open.labels(&BEDS.replacen("b2.chute", "^", 1)), ["b1.chute", "b2.chute"]);
+}
+
+#[test]
+fn nodes_and_routes_are_offered() {
+    let mut open = open("layout-nodes", "line.json");
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes");
+    for name in ["branches.aut", "branches.scenario.json"] {
+        fs::copy(examples.join(name), open.file.with_file_name(name)).expect("a copy");
+    }
+    let text = read(&examples.join("branches.json"));
+    let nodes = open.labels(&text.replacen("{\"from\": \"queue\"", "{\"from\": \"^\"", 1));
+    assert!(nodes.contains(&"fork".to_string()) && nodes.len() == 12, "{nodes:?}");
+    assert_eq!(open.labels(&text.replacen("\"to\": \"dock\"", "\"to\": \"^\"", 1)), nodes);
+    assert_eq!(open.labels(&text.replacen("\"home\": \"queue\"", "\"home\": \"^\"", 1)), nodes);
+    assert_eq!(open.labels(&text.replacen("\"hall\": \"floor\"", "\"hall\": \"^\"", 1)), ["floor"]);
 }

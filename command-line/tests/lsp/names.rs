@@ -297,11 +297,6 @@ fn renaming_is_refused_with_a_reason() {
 fn completion_knows_what_can_stand_there() {
     let mut line = line("completion");
     line.text = desks().replace("when n < 3", "|when n < 3");
-    let has = |found: &[String], wanted: &[&str]| {
-        for word in wanted {
-            assert!(found.iter().any(|f| f == word), "{word} in {found:?}");
-        }
-    };
     let lacks = |found: &[String], other: &[&str]| {
         for word in other {
             assert!(!found.iter().any(|f| f == word), "{word} in {found:?}");
@@ -334,4 +329,81 @@ fn completion_knows_what_can_stand_there() {
         &line.completed("device press { part p = cylinder {}; in up: bool = p."),
         &["is_in", "is_out", "extend"],
     );
+}
+
+fn has(found: &[String], wanted: &[&str]) {
+    for word in wanted {
+        assert!(found.iter().any(|f| f == word), "{word} in {found:?}");
+    }
+}
+
+/// The text behind the steps of the sequence of the clerk.
+const OUTCOMES: &str = "-> Waiting { n := 0; } else Waiting {}";
+
+#[test]
+fn behind_a_sequence_states_and_updates_are_offered() {
+    let mut line = line("completion-sequence");
+    let states = ["Going", "Waiting"];
+    for outcomes in [
+        "-> | { n := 0; } else Waiting {}",
+        "-> | else Waiting {}",
+        "-> |;",
+        "-> |",
+        "-> Waiting { n := 0; } else | {}",
+        "-> Waiting {} else |",
+        "-> Waiting; else |",
+    ] {
+        line.text = desks().replace(OUTCOMES, outcomes);
+        assert_eq!(line.completed(""), states, "{outcomes}");
+        assert_eq!(line.completed("W"), states, "{outcomes}");
+    }
+    for outcomes in [
+        "-> Waiting { | } else Waiting {}",
+        "-> Waiting { n := 0; | }",
+        "-> Waiting { n := 0; } else Waiting { | }",
+        "-> Waiting; else Waiting { | }",
+    ] {
+        line.text = desks().replace(OUTCOMES, outcomes);
+        let found = line.completed("");
+        has(&found, &["n", "move", "goal"]);
+        assert!(!found.iter().any(|word| ["when", "until", "state"].contains(&word.as_str())), "{found:?}");
+    }
+    line.text = desks().replace(OUTCOMES, "-> Waiting {} |");
+    has(&line.completed(""), &["else", "state"]);
+    line.text = desks().replace(OUTCOMES, "-> Waiting {} else Waiting {} |");
+    let found = line.completed("");
+    has(&found, &["state"]);
+    assert!(!found.contains(&"else".into()), "{found:?}");
+    line.text = desks().replace(OUTCOMES, &format!("{OUTCOMES}\n    state Last {{ | }}"));
+    assert_eq!(line.completed(""), ["when"]);
+    line.text = desks().replace(OUTCOMES, "-> Waiting {}\n    state Last { | }");
+    assert_eq!(line.completed(""), ["when"]);
+}
+
+#[test]
+fn words_behind_words_of_the_language_are_offered() {
+    let mut line = line("completion-phrases");
+    line.text = desks().replace("    knows", "    |\n    knows");
+    for (before, words) in [
+        ("any ", &["state"][..]),
+        ("any state ", &["except"]),
+        ("resume ", &["state"]),
+        ("takes ", &["from"]),
+        ("hands ", &["to"]),
+        ("shared x: int 0..9 := 0 by ", &["counter", "handshake", "lock", "owner", "token"]),
+        ("shared x: bool := false by handshake ", &[]),
+        ("invariant n < 5 else ", &["stop", "warn"]),
+        ("invariant n < 5 else stop ", &["line", "machine"]),
+    ] {
+        assert_eq!(line.completed(before), words, "{before}");
+    }
+    line.text = desks() + "|";
+    assert_eq!(
+        line.completed("interface A { shared b: bool by own"),
+        line.completed("interface A { shared b: bool by ")
+    );
+    assert_eq!(line.completed("automaton Other on vehicle is Desk offers "), ["at"]);
+    assert_eq!(line.completed("automaton Other on vehicle is Desk accepts "), ["at"]);
+    assert_eq!(line.completed("device press { out up: bool = p.extend stop "), ["false", "true"]);
+    assert_eq!(line.completed("device press { out up: real = p.extend stop "), [] as [&str; 0]);
 }

@@ -20,6 +20,8 @@ pub struct At {
     /// The machine and the lane at whose end this begins.
     pub machine: String,
     pub lane: String,
+    /// The text that names them.
+    pub named: Span,
 }
 
 impl Decoder {
@@ -38,7 +40,8 @@ impl Decoder {
             self.report(Diagnostic::new("E0148", of.span, message).help(AS_TEXT));
             return None;
         };
-        Some(At { span: json.span, own, machine: machine.into(), lane: lane.into() })
+        let named = of.span;
+        Some(At { span: json.span, own, machine: machine.into(), lane: lane.into(), named })
     }
 }
 

@@ -13,7 +13,7 @@ pub mod routes;
 pub use machine::{machine, obstacle};
 pub use object::{Object, Part};
 pub use paths::OUTSIDE;
-pub use read::{Reading, parse};
+pub use read::{KEYS, Reading, parse};
 pub use routes::Routes;
 
 use crate::source::{FileId, Span, Spanned};
@@ -43,7 +43,7 @@ impl Layout {
 }
 
 /// What a person can operate beside the devices.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Panel {
     /// Permit, start and reset of the whole line.
     #[default]

@@ -1,6 +1,7 @@
 //! What can be at a place of a file of automata. The text there is being typed and has errors, so the words before the
 //! place say what is wanted; what names there are is from all that could be read.
 
+mod phrases;
 mod words;
 
 pub use words::{MOST_WORDS, Word};
@@ -112,6 +113,8 @@ struct Place<'t> {
     open: Vec<&'t [Token]>,
     /// What stands of the statement.
     statement: &'t [Token],
+    /// What the last braces that were closed, or the last semicolon, belong to.
+    closed: &'t [Token],
 }
 
 impl<'t> Place<'t> {
@@ -119,7 +122,12 @@ impl<'t> Place<'t> {
         let mut item = None;
         let mut open: Vec<&[Token]> = Vec::new();
         let mut start = 0;
+        let mut closed: &[Token] = &[];
         for (at, token) in tokens.iter().enumerate() {
+            let goes_on = [Token::Sign("->"), Token::Word("else".into())].contains(token);
+            if at == start + 1 && is_outcome(&tokens[start..at]) && !goes_on {
+                start = at;
+            }
             match token {
                 Token::Word(word) if open.is_empty() && at == start && ITEMS.contains(&word.as_str()) => {
                     let name = tokens.get(at + 1).and_then(as_word).unwrap_or_default();
@@ -130,23 +138,29 @@ impl<'t> Place<'t> {
                     start = at + 1;
                 }
                 Token::Sign("}") => {
-                    open.pop();
+                    closed = open.pop().unwrap_or_default();
                     if open.is_empty() {
                         item = None;
                     }
-                    start = at + 1;
+                    start = if may_go_on(closed) { at } else { at + 1 };
                 }
-                Token::Sign(";") => start = at + 1,
+                Token::Sign(";") => {
+                    closed = &tokens[start..at];
+                    start = if is_outcome(closed) && may_go_on(closed) { at } else { at + 1 };
+                }
                 _ => {}
             }
         }
-        Self { tokens, item, open, statement: &tokens[start..] }
+        Self { tokens, item, open, statement: &tokens[start..], closed }
     }
 
     fn words(&self, specs: &Specs) -> Vec<Word> {
         let Some((item, name)) = self.item else { return of_language(ITEMS) };
         if self.tokens.last() == Some(&Token::Sign(".")) {
             return self.members(specs, item, name);
+        }
+        if let Some(words) = phrases::behind(item, self.open.len(), self.statement) {
+            return words;
         }
         let first = self.statement.first().and_then(as_word).unwrap_or_default();
         let last = self.statement.last();
@@ -160,6 +174,14 @@ impl<'t> Place<'t> {
             }
             (_, 0, _) => Vec::new(),
             ("automaton", 1, None) => of_language(OF_AUTOMATON),
+            ("automaton", 1, _) if self.statement.len() == 1 && is_outcome(self.statement) => {
+                if is_sequence(self.closed) {
+                    return Vec::new();
+                }
+                let mut words = of_language(OF_AUTOMATON);
+                words.extend(of_language(&["else"]));
+                words
+            }
             ("device" | "assembly", 1, None) => of_language(OF_DEVICE),
             ("interface", 1, None) => of_language(OF_INTERFACE),
             (_, _, Some(Token::Sign(":"))) if declares => types(specs),
@@ -184,7 +206,10 @@ impl<'t> Place<'t> {
     /// What the statement of an automaton may hold.
     fn of_automaton(&self, specs: &Specs, name: &str) -> Vec<Word> {
         let mut words = match (self.statement.is_empty(), self.in_updates()) {
-            (true, true) => of_language(&["until", "wait"]),
+            (true, true) if self.open.last().is_some_and(|statement| is_sequence(statement)) => {
+                of_language(&["until", "wait"])
+            }
+            (true, true) => Vec::new(),
             (true, false) => return of_language(&["when"]),
             (false, _) => of_language(IN_EXPRESSIONS),
         };
@@ -206,10 +231,9 @@ impl<'t> Place<'t> {
     /// Within the braces of a transition or a sequence.
     fn in_updates(&self) -> bool {
         let of = self.open.last().and_then(|statement| statement.first()).and_then(as_word);
-        let is_sequence = |statement: &&[Token]| statement.last().and_then(as_word) == Some("sequence");
         of == Some("when")
             || of == Some("initial") && self.open.len() == 2 && !self.opens_state()
-            || self.open.last().is_some_and(is_sequence)
+            || self.open.last().is_some_and(|statement| is_sequence(statement) || is_outcome(statement))
     }
 
     fn opens_state(&self) -> bool {
@@ -283,6 +307,22 @@ impl<'t> Place<'t> {
             ty => named(specs, &[What::Cell, What::Parameter], ty),
         }
     }
+}
+
+/// That of the steps of a sequence, before their braces.
+fn is_sequence(statement: &[Token]) -> bool {
+    statement.last().and_then(as_word) == Some("sequence")
+}
+
+/// What stands behind the steps of a sequence begins with the end of what is before it.
+fn is_outcome(statement: &[Token]) -> bool {
+    matches!(statement.first(), Some(Token::Sign("}" | ";")))
+}
+
+/// Whether the sequence that a statement belongs to may have more behind it.
+fn may_go_on(statement: &[Token]) -> bool {
+    let has_else = || statement.iter().any(|token| as_word(token) == Some("else"));
+    is_sequence(statement) || is_outcome(statement) && !has_else()
 }
 
 fn is_role(word: &str) -> bool {

@@ -45,6 +45,19 @@ pub fn shown(diagnostic: &Diagnostic, lines: &Lines, files: &dyn Located) -> pro
     }
 }
 
+/// A diagnostic of a text that is a part of autogen, as what is wrong with a file that uses it.
+pub fn of_built_in(
+    diagnostic: &Diagnostic,
+    name: &str,
+    lines: &Lines,
+    files: &dyn Located,
+) -> protocol::Diagnostic {
+    let article = if name.contains('/') { "" } else { "the " };
+    let message = format!("in {article}{name}: {}", diagnostic.message);
+    let shown = shown(&Diagnostic { message, ..diagnostic.clone() }, lines, files);
+    protocol::Diagnostic { range: protocol::Range::default(), ..shown }
+}
+
 /// What is wrong with a file as a whole, such as that it cannot be read.
 pub fn of_file(message: &str) -> protocol::Diagnostic {
     protocol::Diagnostic {

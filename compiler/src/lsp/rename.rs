@@ -49,6 +49,7 @@ pub fn rename(specs: &Specs, place: Span, new_name: &str) -> Result<Vec<Edit>, S
         return Ok(Vec::new());
     }
     let same = specs.names.same(number);
+    is_not_in_unread(specs, &same)?;
     let declared = same.iter().filter_map(|same| specs.names.declarations()[*same].place);
     let used = specs.names.uses().filter(|(_, used)| same.contains(used)).map(|(span, _)| span);
     let mut edits = Vec::new();
@@ -81,6 +82,25 @@ pub fn rename(specs: &Specs, place: Span, new_name: &str) -> Result<Vec<Edit>, S
     edits.dedup();
     proved(specs, &edits)?;
     Ok(edits)
+}
+
+/// Nothing is changed in a layout that cannot be read, so none that has the name may be left behind.
+fn is_not_in_unread(specs: &Specs, numbers: &[Number]) -> Result<(), String> {
+    let Some(layout) = specs.unread else { return Ok(()) };
+    let file = specs.sources.file(layout);
+    let words: Vec<&str> = file.text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
+    for number in numbers {
+        let declaration = &specs.names.declarations()[*number];
+        let name = match declaration.what {
+            What::Automaton => json_type(&declaration.name),
+            What::Parameter | What::Key | What::Part | What::Member => declaration.name.clone(),
+            _ => continue,
+        };
+        if words.contains(&name.as_str()) {
+            return Err(format!("{} has `{name}` and cannot be read: correct it first", file.name));
+        }
+    }
+    Ok(())
 }
 
 fn is_name(text: &str) -> Result<(), String> {

@@ -5,7 +5,7 @@ mod names;
 mod rules;
 mod tree;
 
-pub use tree::{Node, Wanted, parse};
+pub use tree::{Member, Node, Wanted, parse};
 
 use super::completion::MOST_WORDS;
 use super::hover::escaped;

@@ -1,11 +1,13 @@
 //! Where a file names what another key or another file has: machines, their parts, kinds of part.
 
-use super::tree::{Place, Step, Wanted};
-use super::{Line, Of, Thing};
+use super::tree::{Node, Place, Step, Wanted};
+use super::{Line, MOST_WORDS, Of, Thing};
+use crate::device::Form;
 use crate::ir::{Automaton, Scalar};
 use crate::lower::bind::{automaton_name, has_type, json_type};
 use crate::scenario::read::operator::OF_LINE;
 use runtime_sim::device::Direction;
+use std::collections::BTreeMap;
 
 /// The names that a place asks for.
 pub fn names(line: &Line, of: Of, place: &Place) -> Vec<String> {
@@ -37,6 +39,18 @@ fn in_layout(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
             let name = text("name");
             of_things(line, |thing, automaton| automaton.is_some() && Some(thing.name.as_str()) != name)
         }
+        ["robots" | "stationary", "*", "at"] => lanes_of_others(line, text("name")),
+        ["robots" | "stationary", "*", "at", "*"] => match (place.path.last(), own()) {
+            (Some(Step::Index(0)), Some(own)) => {
+                let automaton = own.get("type").and_then(Node::text).and_then(|kind| line.automaton(kind));
+                automaton.map_or_else(Vec::new, |automaton| lanes(automaton).map(String::from).collect())
+            }
+            _ => lanes_of_others(line, text("name")),
+        },
+        ["routes", _, "edges", "*", "from" | "to"] => own().map_or_else(Vec::new, nodes),
+        ["robots" | "stationary", "*", key] => {
+            own().map_or_else(Vec::new, |own| tracks(line, place, own, key))
+        }
         ["may_touch", "*", "pair", "*"] => of_things(line, |_, _| true),
         ["robots" | "stationary", "*", "parameters", parameter, ..] => {
             let automaton = text("type").and_then(|kind| line.automaton(kind));
@@ -51,6 +65,41 @@ fn in_layout(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
         }
         _ => Vec::new(),
     }
+}
+
+/// The nodes of routes.
+fn nodes(routes: &Node) -> Vec<String> {
+    let nodes = routes.get("nodes").into_iter().flat_map(|nodes| nodes.members());
+    nodes.map(|node| node.name.clone()).collect()
+}
+
+/// What a key of a vehicle on a track may be: the routes of the layout, or the nodes of its own.
+fn tracks(line: &Line, place: &Place, own: &Node, key: &str) -> Vec<String> {
+    let routes = place.around.first().and_then(|layout| layout.get("routes"));
+    let automaton = own.get("type").and_then(Node::text).and_then(|kind| line.automaton(kind));
+    let (Some(routes), Some(automaton)) = (routes, automaton) else { return Vec::new() };
+    let parameters = &automaton.device.parameters;
+    match parameters.iter().find(|parameter| parameter.name == key).map(|parameter| &parameter.form) {
+        Some(Form::Routes) => routes.members().iter().map(|member| member.name.clone()).collect(),
+        Some(Form::Node) => {
+            let of_routes = parameters.iter().find(|parameter| parameter.form == Form::Routes);
+            let named = of_routes.and_then(|parameter| own.get(&parameter.name)?.text());
+            named.and_then(|name| routes.get(name)).map_or_else(Vec::new, nodes)
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn lanes(automaton: &Automaton) -> impl Iterator<Item = &str> {
+    automaton.device.parts_called("lane").map(|(_, lane)| lane)
+}
+
+/// At whose ends the lane of a machine may begin, as `belt.lane`.
+fn lanes_of_others(line: &Line, own: Option<&str>) -> Vec<String> {
+    let others = machines(line).filter(|(thing, _)| Some(thing.name.as_str()) != own);
+    others
+        .flat_map(|(thing, automaton)| lanes(automaton).map(|lane| format!("{}.{lane}", thing.name)))
+        .collect()
 }
 
 fn keys_of_scenario(line: &Line, path: &[&str]) -> Vec<String> {
@@ -87,6 +136,7 @@ fn in_scenario(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
         ["faults", "sensors", "*", "robot"] => of_machines(line, |automaton| inputs(automaton).count() > 0),
         ["faults", "sensors", "*", "signal"] => of_robot(line, place, |automaton| texts(inputs(automaton))),
         ["faults", _, "*", "robot"] => of_machines(line, |automaton| automaton.device.is_commanded()),
+        ["operator", "*", "remove"] => items(line, place),
         ["operator", "*", "robot"] => of_machines(line, |automaton| automaton.device.operated().count() > 0),
         ["operator", "*", "part"] => {
             if named_robot(place).is_none() {
@@ -96,6 +146,27 @@ fn in_scenario(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
         }
         _ => Vec::new(),
     }
+}
+
+/// What the supply brings, by kind and number; the first of each kind, where the supply is no list.
+fn items(line: &Line, place: &Place) -> Vec<String> {
+    let supply = place.around.first().and_then(|scenario| scenario.get("supply"));
+    let list = supply.and_then(|supply| supply.get("items"));
+    let belts = list.into_iter().flat_map(|list| list.members()).filter_map(|belt| belt.value.as_ref());
+    let names = belts.chain(list).flat_map(Node::items).filter_map(Node::text);
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    names.for_each(|name| *counts.entry(name).or_default() += 1);
+    let times = supply.and_then(|supply| supply.get("times")?.number()).unwrap_or(1).min(MOST_WORDS);
+    let of_kind = |kind: &String| match list {
+        Some(_) => counts.get(kind.as_str()).map_or(0, |count| count * times),
+        None => 1,
+    };
+    let most = line.kinds.iter().map(of_kind).max().unwrap_or_default();
+    let numbered = |number: usize| {
+        let brought = line.kinds.iter().filter(move |kind| number <= of_kind(kind));
+        brought.map(move |kind| format!("{kind}_{number}"))
+    };
+    (1..=most).flat_map(numbered).take(MOST_WORDS).collect()
 }
 
 /// The machine that the object names in which the place is.

@@ -18,8 +18,8 @@ pub enum Kind {
     Object(Vec<Member>),
     List(Vec<Node>),
     Text(String),
-    /// A number, a word, or the beginning of one.
-    Bare,
+    /// A number, a word, or the beginning of one, as it is written.
+    Bare(String),
     /// Only space, where a value has to be.
     Nothing,
 }
@@ -76,6 +76,14 @@ impl Node {
         }
     }
 
+    /// Whole, and not negative.
+    pub fn number(&self) -> Option<usize> {
+        match &self.kind {
+            Kind::Bare(text) => text.parse().ok(),
+            _ => None,
+        }
+    }
+
     pub fn members(&self) -> &[Member] {
         match &self.kind {
             Kind::Object(members) => members,
@@ -126,7 +134,7 @@ impl Node {
                     item.descend(offset, place);
                 }
             }
-            Kind::Text(_) | Kind::Bare => {
+            Kind::Text(_) | Kind::Bare(_) => {
                 place.wanted = Wanted::Value;
                 place.span = self.span.clone();
             }
@@ -138,7 +146,7 @@ impl Node {
     fn holds(&self, offset: usize) -> bool {
         match self.kind {
             Kind::Object(_) | Kind::List(_) => self.span.start < offset && offset < self.span.end,
-            Kind::Text(_) | Kind::Bare | Kind::Nothing => touches(&self.span, offset),
+            Kind::Text(_) | Kind::Bare(_) | Kind::Nothing => touches(&self.span, offset),
         }
     }
 }
@@ -174,16 +182,13 @@ impl Reader<'_> {
         let kind = match self.peek() {
             Some('{' | '[') if self.depth == DEEPEST => {
                 self.advance();
-                Kind::Bare
+                Kind::Bare(String::new())
             }
             Some('{') => return self.within(start, Self::members),
             Some('[') => return self.within(start, Self::items),
             Some('"') => Kind::Text(self.quoted()),
             None | Some('}' | ']' | ',' | ':') => return Node { span: before..start, kind: Kind::Nothing },
-            Some(_) => {
-                self.word();
-                Kind::Bare
-            }
+            Some(_) => Kind::Bare(self.word()),
         };
         Node { span: start..self.at, kind }
     }

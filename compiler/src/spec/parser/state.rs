@@ -1,7 +1,7 @@
 //! States, transitions, updates, sequences.
 
 use super::Parser;
-use crate::source::Span;
+use crate::source::{Span, Spanned};
 use crate::spec::ast;
 use crate::spec::lexer::Token;
 
@@ -48,7 +48,8 @@ impl Parser {
                 self.recover();
                 return None;
             }
-            ast::Body::Sequence(self.sequence()?)
+            // With its name the state is known, even if its steps are not.
+            self.sequence().map_or_else(|| ast::Body::Transitions(Vec::new()), ast::Body::Sequence)
         } else if is_final && self.maybe_sign(";") {
             ast::Body::Transitions(Vec::new())
         } else {
@@ -304,27 +305,38 @@ impl Parser {
             self.recover();
             return None;
         }
-        let then = self.outcome(span)?;
-        let otherwise = if self.at_word("else") {
+        let then = self.outcome(span);
+        let otherwise = self.at_word("else").then(|| {
             let span = self.span();
             self.next();
-            Some(self.outcome(span)?)
-        } else {
-            None
-        };
-        Some(ast::Sequence { steps, then, otherwise })
+            self.outcome(span)
+        });
+        match otherwise {
+            None => Some(ast::Sequence { steps, then: then?, otherwise: None }),
+            Some(otherwise) => Some(ast::Sequence { steps, then: then?, otherwise: Some(otherwise?) }),
+        }
+    }
+
+    /// Of a sequence whose next state is not written yet.
+    fn no_target(&mut self) -> Option<Spanned<String>> {
+        let found = self.found();
+        let help = format!("write a name before {found}");
+        self.error("E0205", "the name of the next state is missing".into(), help);
+        None
     }
 
     fn outcome(&mut self, span: Span) -> Option<ast::Outcome> {
-        let target = self.expect_name("the next state")?;
+        let named = !self.at_word("else") && !self.at_state();
+        let target = if named { self.expect_name("the next state") } else { self.no_target() };
         let updates = if self.maybe_sign(";") {
             Vec::new()
         } else if self.at_word("else") || self.at_sign("}") || self.at_state() {
-            self.without_updates(&target);
+            target.iter().for_each(|target| self.without_updates(target));
             Vec::new()
         } else {
             self.parse_updates()
         };
+        let target = target?;
         Some(ast::Outcome { span: span.to(target.span), target, updates })
     }
 
