@@ -45,6 +45,7 @@ impl Context<'_, '_> {
     /// `taken` are the names that the values which it keeps cannot have.
     fn property(&mut self, tree: &ast::Property, taken: &std::collections::BTreeMap<String, Symbol>) {
         let number = self.automaton.properties.len() + 1;
+        let first_kept = self.automaton.locals.len();
         let kind = match &tree.kind {
             ast::PropertyKind::Always(condition) => {
                 self.typed(condition, Scalar::Bool).map(PropertyKind::Always)
@@ -93,6 +94,9 @@ impl Context<'_, '_> {
         };
         let Some(kind) = kind else { return };
         let text = written::on_one_line(self.checker.sources.text(tree.span));
+        for kept in &mut self.automaton.locals[first_kept..] {
+            kept.doc = vec![text.clone()];
+        }
         let (severity, told) = match &tree.reaction {
             ast::Reaction::Fault => {
                 (Severity::Line, format!("not: {}", text.strip_prefix("invariant ").unwrap_or(&text)))

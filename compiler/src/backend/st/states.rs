@@ -35,10 +35,9 @@ pub fn table(shared: Shared, translate: &mut Translate) -> String {
     text
 }
 
-/// The guards that lead out of a state, as written, each with the state behind it; none for one that always holds.
+/// The guards that lead out of a state, as written, each with the state behind it.
 fn waits(automaton: &Automaton, state: &State) -> String {
-    let leads = state.transitions.iter().filter(|transition| !transition.is_unconditional());
-    let guards = leads.filter_map(|transition| {
+    let guards = state.transitions.iter().filter_map(|transition| {
         let target = &automaton.states[transition.target?.0].name;
         Some(format!("{} -> {target}", transition.title()))
     });
