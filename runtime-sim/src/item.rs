@@ -1,5 +1,6 @@
 //! Items, and the one carrier that each of them has at every moment.
 
+pub mod footprint;
 mod states;
 
 use crate::carrier::Carrier;
@@ -60,6 +61,8 @@ pub struct Items {
     states: States,
     /// Of an item those that became parts of it, in the order in which they did.
     parts: BTreeMap<usize, Vec<usize>>,
+    /// Of an item how it is turned about the vertical on what bears it, rad; left out if it is not.
+    turns: BTreeMap<usize, f64>,
     /// Items that each machine bears, in the order in which they came.
     pub(crate) borne: Vec<Vec<usize>>,
     /// Items on the ground or on obstacles.
@@ -84,6 +87,7 @@ impl Items {
         Self {
             states: States::new(line.scenario.supply.iter().flat_map(|supply| supply.items.iter().copied())),
             parts: BTreeMap::new(),
+            turns: BTreeMap::new(),
             borne: vec![Vec::new(); line.machines.len()],
             fallen: Vec::new(),
             log: Log::default(),
@@ -157,8 +161,23 @@ impl Items {
             self.parts.entry(of).or_default().push(item);
         } else if to.is_final() {
             self.parts.remove(&item);
+            self.turns.remove(&item);
         }
         self.log.push(Event::Item { scan: self.scan, item, from, to, point });
+    }
+
+    /// How an item is turned about the vertical on what bears it, to the left as seen from above, rad. On a lane that turns
+    /// items this is not asked.
+    pub fn turn(&self, item: usize) -> f64 {
+        self.turns.get(&item).copied().unwrap_or_default()
+    }
+
+    pub(crate) fn set_turn(&mut self, item: usize, turn: f64) {
+        if turn == 0.0 {
+            self.turns.remove(&item);
+        } else {
+            self.turns.insert(item, turn);
+        }
     }
 
     /// An item becomes one of another kind.

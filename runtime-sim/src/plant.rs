@@ -21,6 +21,7 @@ use crate::carrier::Carrier;
 use crate::frame::Frame;
 use crate::item::{Items, Names};
 use crate::kinematics::arm::Joints;
+use crate::kinematics::wrapped;
 use crate::line::{Line, Obstacle};
 use crate::memory::Memory;
 use crate::part::Primitive;
@@ -31,6 +32,7 @@ use crate::point::Point;
 use conveyed::Conveyed;
 use conveying::{Among, Conveying, Falls, View};
 pub use conveying::{By, Gap, Transfer, gaps, transfers};
+use fall::Falling;
 use gripping::{Lying, NextLook};
 pub use removing::Missed;
 use removing::Removing;
@@ -234,13 +236,17 @@ impl Plant {
     }
 
     fn fall(&mut self, Falls { item, from, ms }: Falls) {
-        let (carrier, point) = fall::fall(self, (from, self.upper(item)), ms);
+        let (carrier, point) = fall::fall(self, &self.falling(item, from), ms);
         if let (Some(under), Some(machine)) = (self.lies_under(item, &carrier, ms), carrier.machine()) {
             self.crash_onto(machine, [item, under], "which lies on a conveyor");
         } else if let Some((machine, under)) = self.is_in(item, &carrier) {
             self.crash_onto(machine, [item, under], "which lies there");
         }
-        self.items.pass(item, carrier, point);
+        self.hand_over(item, carrier, point);
+    }
+
+    fn falling(&self, item: usize, point: Point) -> Falling {
+        Falling { point, upper: self.upper(item), kind: self.items[item].kind, turn: self.turn(item) }
     }
 
     fn crash_onto(&mut self, machine: usize, two: [usize; 2], lies: &str) {
@@ -280,12 +286,36 @@ impl Plant {
     /// An item that slips falls; it does not stay on another one that lies on a conveyor.
     fn lose(&mut self, item: usize, ms: f64) {
         let Some(from) = self.place(item) else { return };
-        let (carrier, point) = fall::fall(self, (from, self.upper(item)), ms);
+        let (carrier, point) = fall::fall(self, &self.falling(item, from), ms);
         let (carrier, point) = match self.lies_under(item, &carrier, ms) {
             Some(_) => fall::to_floor(self, from),
             None => (carrier, point),
         };
-        self.items.pass(item, carrier, point);
+        self.hand_over(item, carrier, point);
+    }
+
+    /// How an item is turned about the vertical since it came onto the line, to the left as seen from above, rad. Of one
+    /// that lies on its side this says nothing.
+    pub fn turn(&self, item: usize) -> f64 {
+        let own = self.items.turn(item);
+        if let Some(conveyed) = self.conveyed(item) {
+            return conveyed.yaw(0.0, own.to_degrees()).to_radians();
+        }
+        if let Some(vehicle) = self.vehicle_under(item) {
+            return vehicle.yaw.to_radians() + own;
+        }
+        let carrier = &self.items[item].carrier;
+        let bearer = carrier.machine().and_then(|machine| self.machines.get(machine));
+        bearer.map_or(0.0, |bearer| bearer.turn(carrier, &self.items, &self.desk)) + own
+    }
+
+    /// Something else bears an item, which keeps its turn.
+    fn hand_over(&mut self, item: usize, to: Carrier, point: Point) {
+        let turn = self.turn(item);
+        self.items.pass(item, to, point);
+        self.items.set_turn(item, 0.0);
+        let on = self.turn(item);
+        self.items.set_turn(item, wrapped(turn - on));
     }
 
     /// Where the upper side of an item faces, a unit vector; none for up.

@@ -12,7 +12,7 @@ use runtime_sim::run::{Stepping, run};
 const ELSEWHERE: [&str; 5] = ["default", "spaced", "less_agv", "buffer", "shared_agv"];
 
 /// Examples that continue after a loss of power.
-const RETAINING: [&str; 5] = ["sorting", "palletizer", "pick_and_place", "scara", "warehouse"];
+const RETAINING: [&str; 6] = ["sorting", "palletizer", "pick_and_place", "scara", "warehouse", "layers"];
 
 /// Scans in which a pause or a loss of power once sent an item astray, or stopped a line for ever.
 const ONCE_WRONG: [(&str, u64); 5] =

@@ -35,6 +35,7 @@ mod mistakes;
 mod mutants;
 mod names;
 mod openplc;
+mod oriented;
 mod over_places;
 mod plcopen;
 mod postponed;

@@ -88,13 +88,14 @@ fn around(middle: Point, half: Point) -> [Point; 2] {
     [middle - half, middle + half]
 }
 
-/// Upright, then hung; the tool down, then level. With a level tool, limits of the wrist do not count for the margin, only
+/// Upright, then hung; the tool down, then with a turn, then level. With a level tool, limits of the wrist do not count for the margin, only
 /// for its sign.
 fn fixed(name: &str, geometry: Geometry, ranges: Option<[[f64; 2]; 6]>, reach: f64) {
     let ranges = ranges.map(|ranges| ranges.map(|range| range.map(f64::to_radians)));
     let [x, y] = [0.6, -0.8];
     for mounting in [Mounting::Upright, Mounting::Hung] {
         facing(name, geometry, mounting, ranges, Facing::Down, reach);
+        facing(name, geometry, mounting, ranges, Facing::Oriented { x, y }, reach);
         let turn = TURNS.map(f64::to_radians);
         let free = ranges.map(|[first, second, third, ..]| [first, second, third, turn, turn, turn]);
         facing(name, geometry, mounting, free, Facing::Level { x, y }, reach);
@@ -113,13 +114,16 @@ fn comes(arm: &FixedArm, place: Point, facing: Facing) -> bool {
     let is_there =
         (tool.position - place).length() < 1e-6 && tool.axis(2).dot(facing.direction()) > 1.0 - 1e-9;
     assert!(is_there, "{place:?} {joints:?}");
+    if let Facing::Oriented { x, y } = facing {
+        assert!(tool.axis(0).dot(Point::new(x, y, 0.0)) > 1.0 - 1e-9, "{place:?} {joints:?}");
+    }
     true
 }
 
 /// Where most of what it reaches is.
 fn of_reach(mounting: Mounting, facing: Facing, reach: f64) -> [Point; 2] {
     let middle = match (mounting, facing) {
-        (Mounting::Hung, Facing::Down) => BASE.up(-0.6 * reach),
+        (Mounting::Hung, Facing::Down | Facing::Oriented { .. }) => BASE.up(-0.6 * reach),
         _ => BASE,
     };
     around(middle, Point::new(reach, reach, reach))

@@ -6,6 +6,7 @@ use super::{Port, Verb, head, panel, type_text};
 use crate::spec::ast::{self, ExprKind, Name, Scalar};
 use runtime_sim::device::{Direction, Extent, PortType, Stop};
 use runtime_sim::machine::MOST_ELEMENTS;
+use runtime_sim::part::chain;
 use runtime_sim::wiring::{Await, Command, Drives, Input, Output, Size, Source, Wiring};
 
 impl Checker<'_> {
@@ -222,6 +223,19 @@ impl Checker<'_> {
             self.report("E0708", tree.action.span, message, known_or_none("its actions are", &known));
             return None;
         };
+        let settings = &self.program.parts[part].settings;
+        if (schema.name, &tree.action.value[..]) == ("chain", chain::ORIENTED)
+            && !chain::has_joints(|setting| settings.iter().any(|given| given.name.value == setting))
+        {
+            let message = format!("no joint of this chain turns its tool for `{}`", chain::ORIENTED);
+            self.report(
+                "E0708",
+                tree.action.span,
+                message,
+                "take `joints`: a Cartesian robot has no joints but its axes",
+            );
+            return None;
+        }
         let mut arguments = Vec::new();
         let mut types = Vec::new();
         for name in &tree.given {

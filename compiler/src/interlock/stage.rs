@@ -9,7 +9,7 @@ use std::collections::HashMap;
 #[derive(Clone, Copy)]
 pub struct Corner {
     pub point: Point,
-    /// Of all corners that are the same to a millimetre.
+    /// Of all corners that are the same to a millimetre, with the tool in the same direction.
     pub number: usize,
     pub is_reached: bool,
 }
@@ -30,7 +30,7 @@ pub struct Stage {
 /// The corners of one machine.
 pub struct Places<'a> {
     moving: &'a Moving,
-    numbers: HashMap<[i64; 3], usize>,
+    numbers: HashMap<[[i64; 3]; 3], usize>,
 }
 
 impl<'a> Places<'a> {
@@ -49,8 +49,10 @@ impl<'a> Places<'a> {
     fn corner(&mut self, region: &Region, number: usize, facing: Facing) -> Corner {
         let [x, y, z] = [0, 1, 2].map(|axis| region[axis][number >> axis & 1]);
         let next = self.numbers.len();
-        let rounded = [x, y, z].map(|value| (value * 1e3).round() as i64);
         let point = Point::new(x, y, z);
+        let tool = facing.pose(point, 1.0);
+        let rounded = [point, tool.axis(0), tool.axis(2)]
+            .map(|place| [place.x, place.y, place.z].map(|value| (value * 1e3).round() as i64));
         Corner {
             point,
             number: *self.numbers.entry(rounded).or_insert(next),

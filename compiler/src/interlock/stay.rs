@@ -3,7 +3,7 @@
 use super::few::around;
 use super::holder::{Holder, lender, owner};
 use super::lock::{self, Lock};
-use super::region::{Bound, Given, Region, Regions, rows_of_local};
+use super::region::{self, Bound, Given, Region, Regions, rows_of_local};
 use super::stage::{Corner, Corners, Places, Stage};
 use crate::ir::{Asking, Automaton, Expr, ExprKind, Place, Scalar, StateId, System, Transition, UpdateKind};
 use crate::source::Span;
@@ -12,17 +12,20 @@ use runtime_sim::device::Direction;
 use runtime_sim::kinematics::facing::Facing;
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
-use runtime_sim::part::Primitive;
+use runtime_sim::part::{Primitive, chain};
 use runtime_sim::point::Point;
 use runtime_sim::wiring::Source;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::f64::consts::{FRAC_PI_4, TAU};
 use std::rc::Rc;
 
 /// Choices of the machines that one works with.
 const MOST_BOUND: usize = 64;
 /// Paths of one machine.
 const MOST_PATHS: usize = 4000;
+/// Between two turns of a tool of which it is not known which ones it has, rad.
+const APART: f64 = FRAC_PI_4;
 
 /// A path, or a place where the machine stands.
 pub struct Stay {
@@ -76,7 +79,7 @@ struct Evaluated {
     stages: Option<Rc<Stages>>,
 }
 
-/// A command that moves the machine.
+/// A command that moves the machine; several for a tool of which not exactly one turn is known.
 pub(super) struct Motion<'a> {
     state: usize,
     pub(super) transition: &'a Transition,
@@ -304,32 +307,49 @@ pub(super) fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>>
             if !matches!(part.primitive, Primitive::Chain(_) | Primitive::Route(_)) {
                 continue;
             }
-            let points =
-                arguments.iter().map(|argument| &argument.value).filter(|value| value.ty == Scalar::Point);
-            let goals: Vec<(&Expr, Facing)> = match part.schema().actions[command.action].name {
+            let of_type = |ty: Scalar| {
+                arguments.iter().map(|argument| &argument.value).filter(move |value| value.ty == ty)
+            };
+            let points = of_type(Scalar::Point);
+            let bound = Bound::default();
+            let regions = Regions::new(given, instance, &bound, transition);
+            let ways: Vec<Vec<(&Expr, Facing)>> = match part.schema().actions[command.action].name {
                 "facing" => {
                     let points: Vec<&Expr> = points.collect();
                     let [goal, direction] = points[..] else { continue };
-                    let bound = Bound::default();
-                    let regions = Regions::new(given, instance, &bound, transition);
                     let ahead = regions.points(direction).as_deref().and_then(middle).and_then(Facing::new);
-                    vec![(goal, ahead.unwrap_or_default())]
+                    vec![vec![(goal, ahead.unwrap_or_default())]]
                 }
-                _ => points.map(|point| (point, Facing::Down)).collect(),
+                chain::ORIENTED => {
+                    let turn = of_type(Scalar::Real).next().and_then(|turn| regions.span(turn));
+                    let turns = turns(turn).into_iter().filter_map(Facing::oriented);
+                    let points: Vec<&Expr> = points.collect();
+                    turns.map(|facing| points.iter().map(|point| (*point, facing)).collect()).collect()
+                }
+                _ => vec![points.map(|point| (point, Facing::Down)).collect()],
             };
             // Up from where it is, or the like: it stays about there.
             let asks_tool = Asking::new(automaton, |kind| match kind {
                 ExprKind::Read(Place::Local { local, .. }) => of_tool.contains(local),
                 kind => is_tool(automaton, machine, kind),
             });
-            if !goals.is_empty() && !goals.iter().any(|(goal, _)| asks_tool.expression(goal)) {
-                let mut named = BTreeSet::new();
-                goals.iter().for_each(|(goal, _)| names(automaton, goal, &mut named));
-                motions.push(Motion { state, transition, goals, named });
+            for goals in ways {
+                if !goals.is_empty() && !goals.iter().any(|(goal, _)| asks_tool.expression(goal)) {
+                    let mut named = BTreeSet::new();
+                    goals.iter().for_each(|(goal, _)| names(automaton, goal, &mut named));
+                    motions.push(Motion { state, transition, goals, named });
+                }
             }
         }
     }
     motions
+}
+
+/// Turns of a tool that are between these, this far apart at most, rad; all round if that is not known, or is more.
+fn turns(span: Option<region::Span>) -> Vec<f64> {
+    let [low, high] = span.filter(|[low, high]| high - low < TAU).unwrap_or([0.0, TAU]);
+    let steps = ((high - low) / APART).ceil();
+    (0..=steps as u32).map(|step| low + (high - low) * f64::from(step) / steps.max(1.0)).collect()
 }
 
 /// Locals that keep where the machine was.
@@ -382,11 +402,12 @@ fn origins(automaton: &Automaton, motions: &[Motion]) -> Vec<BTreeSet<Option<usi
         for (number, state) in automaton.states.iter().enumerate() {
             for transition in &state.transitions {
                 let target = transition.target.map_or(number, |StateId(target)| target);
-                let after =
-                    match motions.iter().position(|motion| std::ptr::eq(motion.transition, transition)) {
-                        Some(motion) => BTreeSet::from([Some(motion)]),
-                        None => at[number].clone(),
-                    };
+                let here = motions.iter().enumerate();
+                let here = here.filter(|(_, motion)| std::ptr::eq(motion.transition, transition));
+                let mut after: BTreeSet<Option<usize>> = here.map(|(motion, _)| Some(motion)).collect();
+                if after.is_empty() {
+                    after.clone_from(&at[number]);
+                }
                 let before = at[target].len();
                 at[target].extend(after);
                 has_changed |= at[target].len() > before;

@@ -94,7 +94,7 @@ fn asked(machine: &Machine, command: &Command, reads_error: bool) -> (Asked, usi
     let schema = machine.parts[command.part].schema();
     let name = schema.actions[command.action].name;
     let (action, points) = match (schema.name, name) {
-        ("chain", "joints" | "turned" | "direct" | "around") => (Action::Motion, 1),
+        ("chain", "joints" | "turned" | "direct" | "around" | "oriented") => (Action::Motion, 1),
         ("chain", "past" | "onto") => (Action::Motion, 2),
         ("route", "to") => (Action::Trip, 1),
         ("lane", "run") => (Action::Run, 0),

@@ -260,14 +260,18 @@ impl Arm {
         self.solve_facing(tool, Facing::Down, from)
     }
 
-    /// [`Self::solve`] with the tool pointing there; some exactly when [`Self::margin_facing`] is not negative. A part on
-    /// the tool keeps its direction, if that is for the last joint to do: it turns back what the others turn.
+    /// [`Self::solve`] with the tool pointing there; some exactly when [`Self::margin_facing`] is not negative. Without a
+    /// turn of its own, a part on the tool keeps its direction, if that is for the last joint to do: it turns back what the
+    /// others turn.
     pub fn solve_facing(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
         let joints = self.solver().solve(tool, facing, from)?;
-        match self.solver().keeps_direction() {
-            true => Some(Self::within_limits(self.with_direction_of(from, joints))),
-            false => Some(joints),
+        if !self.solver().keeps_direction() {
+            return Some(joints);
         }
+        Some(Self::within_limits(match facing {
+            Facing::Oriented { x, y } => self.with_direction(from, libm::atan2(y, x), joints),
+            Facing::Down | Facing::Level { .. } => self.with_direction_of(from, joints),
+        }))
     }
 
     /// Joints to pass on the way of the tool to a place, the last ones there: straight up or down in small steps where
@@ -290,10 +294,14 @@ impl Arm {
         let (start, ahead) = (self.tool_pose(from), facing.direction());
         let way = tool - start.position;
         let aside = way - ahead.scaled(way.dot(ahead));
-        let is_along = aside.length() < ALIGNED && (start.axis(2) - ahead).length() < ALIGNED;
+        let is_along = aside.length() < ALIGNED && facing.is_of(&start, ALIGNED);
         let steps = (way.length() / LINE_STEP).ceil();
         (is_along && steps > 1.0 && steps <= MOST_STEPS).then_some(())?;
-        self.stepped(steps, 0, from, |i, last| {
+        let standing = match facing {
+            Facing::Oriented { .. } => self.solver().standing()?,
+            Facing::Down | Facing::Level { .. } => 0,
+        };
+        self.stepped(steps, standing, from, |i, last| {
             self.solve_facing(tool - way.scaled(1.0 - f64::from(i) / steps), facing, last)
         })
     }
@@ -437,7 +445,7 @@ impl Arm {
 }
 
 /// The direction of a part on a tool, seen from above, rad.
-fn direction_of(tool: &Pose) -> f64 {
+pub fn direction_of(tool: &Pose) -> f64 {
     let along = tool.axis(0);
     libm::atan2(along.y, along.x)
 }

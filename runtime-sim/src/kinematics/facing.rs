@@ -6,8 +6,11 @@ use crate::point::Point;
 /// In the world, or in the frame of an arm's base, which stands upright.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Facing {
+    /// The last joint turns the tool so that its x lies along that of the arm's base, or against it.
     #[default]
     Down,
+    /// Down, its x along this level unit vector.
+    Oriented { x: f64, y: f64 },
     /// Level: a unit vector. The y of the tool is level too.
     Level { x: f64, y: f64 },
 }
@@ -29,10 +32,34 @@ impl Facing {
         (z.abs() < OFF * length).then_some(Self::Level { x: x / level, y: y / level })
     }
 
+    /// Down with the x of the tool at this turn, seen from above, to the left from the x of the frame, rad. None if it is
+    /// no number.
+    pub fn oriented(turn: f64) -> Option<Self> {
+        let (y, x) = libm::sincos(turn);
+        turn.is_finite().then_some(Self::Oriented { x, y })
+    }
+
+    /// What `x` of [`Self::pose`] may be.
+    pub(super) fn ways(self) -> &'static [f64] {
+        match self {
+            Self::Oriented { .. } => &[1.0],
+            Self::Down | Self::Level { .. } => &[1.0, -1.0],
+        }
+    }
+
+    /// Whether a tool points there, off it by less than this.
+    pub(super) fn is_of(self, tool: &Pose, off: f64) -> bool {
+        let points = (tool.axis(2) - self.direction()).length() < off;
+        match self {
+            Self::Oriented { x, y } => points && (tool.axis(0) - Point::new(x, y, 0.0)).length() < off,
+            Self::Down | Self::Level { .. } => points,
+        }
+    }
+
     /// Where the tool points, a unit vector.
     pub fn direction(self) -> Point {
         match self {
-            Self::Down => Point::new(0.0, 0.0, -1.0),
+            Self::Down | Self::Oriented { .. } => Point::new(0.0, 0.0, -1.0),
             Self::Level { x, y } => Point::new(x, y, 0.0),
         }
     }
@@ -40,16 +67,19 @@ impl Facing {
     /// So many metres from a place against where the tool points: above it, if the tool points down.
     pub fn back(self, place: Point, distance: f64) -> Point {
         match self {
-            Self::Down => place.up(distance),
+            Self::Down | Self::Oriented { .. } => place.up(distance),
             Self::Level { .. } => place - self.direction().scaled(distance),
         }
     }
 
-    /// The tool at a place. Pointing down its x lies along the x of the frame (1), or against it (-1); level it points
-    /// down (1), or up (-1).
+    /// The tool at a place. Pointing down its x lies along the x of the frame (1), or against it (-1), or the same with its
+    /// own direction; level it points down (1), or up (-1).
     pub fn pose(self, position: Point, x: f64) -> Pose {
         let rotation = match self {
             Self::Down => [[x, 0.0, 0.0], [0.0, -x, 0.0], [0.0, 0.0, -1.0]],
+            Self::Oriented { x: along, y: left } => {
+                [[x * along, x * left, 0.0], [x * left, -x * along, 0.0], [0.0, 0.0, -1.0]]
+            }
             Self::Level { x: ahead, y: left } => {
                 [[0.0, -x * left, ahead], [0.0, x * ahead, left], [-x, 0.0, 0.0]]
             }
@@ -78,8 +108,10 @@ mod tests {
     /// A right-handed frame whose z points there.
     #[test]
     fn the_tool_points_there() {
-        for facing in [Facing::Down, Facing::Level { x: 0.6, y: 0.8 }, Facing::Level { x: -1.0, y: 0.0 }] {
-            for x in [1.0, -1.0] {
+        let level = [Facing::Level { x: 0.6, y: 0.8 }, Facing::Level { x: -1.0, y: 0.0 }];
+        let down = [Facing::Down, Facing::Oriented { x: 0.6, y: 0.8 }, Facing::Oriented { x: -1.0, y: 0.0 }];
+        for facing in level.into_iter().chain(down) {
+            for &x in facing.ways() {
                 let pose = facing.pose(Point::default(), x);
                 assert_eq!(pose.axis(2), facing.direction());
                 let [a, b, c] = [0, 1, 2].map(|i| pose.axis(i));

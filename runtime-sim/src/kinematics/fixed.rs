@@ -86,11 +86,16 @@ impl FixedArm {
 
     /// The same direction in the frame in which the base stands.
     fn seen_facing(&self, facing: Facing) -> Facing {
+        let seen =
+            |x: f64, y: f64| Frame::new(Point::default(), -self.base.yaw).direction(Point::new(x, y, 0.0));
         match facing {
             Facing::Down => Facing::Down,
-            Facing::Level { .. } => {
-                let Point { x, y, .. } =
-                    Frame::new(Point::default(), -self.base.yaw).direction(facing.direction());
+            Facing::Oriented { x, y } => {
+                let Point { x, y, .. } = seen(x, y);
+                Facing::Oriented { x, y }
+            }
+            Facing::Level { x, y } => {
+                let Point { x, y, .. } = seen(x, y);
                 Facing::Level { x, y }
             }
         }
@@ -132,7 +137,7 @@ impl FixedArm {
             return -least.min(self.longest());
         }
         let counted = match facing {
-            Facing::Down => *ranges,
+            Facing::Down | Facing::Oriented { .. } => *ranges,
             Facing::Level { .. } => {
                 std::array::from_fn(|joint| if joint < WRIST { ranges[joint] } else { [-TAU, TAU] })
             }
@@ -182,7 +187,7 @@ impl FixedArm {
 
     /// All joints that bring the tool, pointing there, to a place in the frame of the base, near `from`.
     fn candidates(&self, seen: Point, facing: Facing, from: &Angles) -> impl Iterator<Item = Candidate> {
-        let solutions = [1.0, -1.0].into_iter().flat_map(move |x| {
+        let solutions = facing.ways().iter().flat_map(move |&x| {
             let tool = self.pointing(seen, facing, x);
             match &self.geometry {
                 Geometry::UniversalRobots(lengths) => {
@@ -315,7 +320,7 @@ fn margin(lengths: &Lengths, tool: &Pose, facing: Facing) -> f64 {
     };
     // The second link of the wrist is at right angles to the tool, in the plane of the arm.
     let [one, other] = match facing {
-        Facing::Down => [slack(ahead - d5, height), slack(ahead + d5, height)],
+        Facing::Down | Facing::Oriented { .. } => [slack(ahead - d5, height), slack(ahead + d5, height)],
         Facing::Level { .. } => [slack(ahead, height - d5), slack(ahead, height + d5)],
     };
     room(ahead, d4, one.max(other))

@@ -18,6 +18,10 @@ pub type Joints = [f64; JOINTS];
 pub const JOINTS: usize = 4;
 /// The joint that slides.
 pub const QUILL: usize = 2;
+/// The joint that turns the tool.
+const TURN: usize = 3;
+/// It moves nothing: an angle that it lacks counts at this distance, m.
+const ABOUT_ITSELF: f64 = 0.1;
 
 /// What the maker gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,8 +69,18 @@ impl Scara {
         (inner + outer - distance).min(distance - (inner - outer).abs())
     }
 
-    /// Both ways to reach a place within this ring, near `from`.
-    fn candidates(&self, place: [f64; 2], height: f64, from: &Joints) -> [Candidate; 2] {
+    /// Where the x of the tool may lie, from that of the base to the left, rad; none if the tool does not point there.
+    fn directions(&self, facing: Facing) -> Vec<f64> {
+        match facing {
+            // Along that of the base, one way or the other.
+            Facing::Down => vec![0.0, PI],
+            Facing::Oriented { x, y } => vec![libm::atan2(y, x) - self.base.yaw.to_radians()],
+            Facing::Level { .. } => Vec::new(),
+        }
+    }
+
+    /// Both ways to reach a place within this ring, near `from`, with the x of the tool in one of these directions.
+    fn candidates(&self, place: [f64; 2], height: f64, directions: &[f64], from: &Joints) -> [Candidate; 2] {
         let [inner, outer] = self.arms.lengths;
         let [x, y] = place;
         let square = x * x + y * y;
@@ -82,15 +96,14 @@ impl Scara {
                 if lacks > ROUNDED { (turn, lacks) } else { (turn.clamp(low, high), 0.0) }
             };
             let ((first, lacks_first), (second, lacks_second)) = (near(0, first), near(1, second));
-            // The x of the tool lies along that of the base, one way or the other.
-            let turns = [0.0, PI].map(|direction| near(3, direction - first - second));
-            let turns = turns.into_iter().filter(|(_, lacks)| *lacks == 0.0).map(|(turn, _)| turn);
-            let nearer = |best: f64, next: f64| match (next - from[3]).abs() < (best - from[3]).abs() - 1e-9 {
-                true => next,
-                false => best,
+            let turns = directions.iter().map(|direction| near(TURN, direction - first - second));
+            let nearer = |best: (f64, f64), next: (f64, f64)| {
+                let is_nearer = (next.0 - from[TURN]).abs() < (best.0 - from[TURN]).abs() - 1e-9;
+                if next.1 < best.1 || (next.1 == best.1 && is_nearer) { next } else { best }
             };
-            let turn = turns.reduce(nearer).unwrap_or_default();
-            let beyond = (lacks_first * root(square)).max(lacks_second * outer);
+            let (turn, lacks_turn) = turns.reduce(nearer).unwrap_or_default();
+            let arms = (lacks_first * root(square)).max(lacks_second * outer);
+            let beyond = arms.max(lacks_turn * ABOUT_ITSELF);
             Candidate { joints: [first, second, height, turn], hand, beyond }
         })
     }
@@ -98,8 +111,9 @@ impl Scara {
     /// How far the tool may go from a place in any direction, at least, until the arm loses it; out of reach the distance
     /// to what it reaches, negative, m. Where only limits of the arms forbid the place: less than 0 by the angle that is
     /// lacking times the distance of the tool from this axis.
-    pub fn margin(&self, tool: Point) -> f64 {
-        if !is_finite(tool) {
+    pub fn margin(&self, tool: Point, facing: Facing) -> f64 {
+        let directions = self.directions(facing);
+        if !is_finite(tool) || directions.is_empty() {
             return f64::NEG_INFINITY;
         }
         let (place, height) = self.seen(tool);
@@ -109,10 +123,15 @@ impl Scara {
         if ring < 0.0 || stroke < 0.0 {
             return -libm::hypot(ring.min(0.0), stroke.min(0.0));
         }
-        let found = self.candidates(place, height, &self.joints_at_start());
+        let found = self.candidates(place, height, &directions, &self.joints_at_start());
         let least = found.iter().map(|found| found.beyond).fold(f64::INFINITY, f64::min);
         if least > 0.0 {
             return -least;
+        }
+        let [low, high] = self.arms.ranges[TURN];
+        if directions.len() == 1 && high - low < TAU {
+            // Where the turn of the tool comes to its limit is not worked out.
+            return 0.0;
         }
         let rooms =
             found.iter().filter(|found| found.beyond == 0.0).map(|found| self.room(place, found.hand));
@@ -140,17 +159,17 @@ impl Scara {
         turned.chain(bent).fold(f64::INFINITY, f64::min)
     }
 
-    /// Joints that bring the tool to a place, its x along that of the base, one way or the other; some exactly when
-    /// [`Self::margin`] is not negative. The outer arm stays on its side where this is possible; else the joint that goes
-    /// farthest goes least.
-    pub fn solve(&self, tool: Point, from: &Joints) -> Option<Joints> {
-        if self.margin(tool) < 0.0 {
+    /// Joints that bring the tool to a place; some exactly when [`Self::margin`] is not negative. The outer arm stays on its
+    /// side where this is possible; else the joint that goes farthest goes least.
+    pub fn solve(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
+        if self.margin(tool, facing) < 0.0 {
             return None;
         }
         let (place, height) = self.seen(tool);
         let [low, high] = self.arms.ranges[QUILL];
         let hand = if from[1] < 0.0 { -1.0 } else { 1.0 };
-        let found = self.candidates(place, height.clamp(low, high), from).into_iter();
+        let directions = self.directions(facing);
+        let found = self.candidates(place, height.clamp(low, high), &directions, from).into_iter();
         let cost = |found: &Candidate| {
             let farthest = found.joints.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             if found.hand == hand { farthest } else { farthest + 4.0 * PI }
@@ -200,11 +219,19 @@ impl Scara {
 
 impl Solver for Scara {
     fn margin_down(&self, tool: Point) -> f64 {
-        Scara::margin(self, tool)
+        Scara::margin(self, tool, Facing::Down)
     }
 
     fn solve_down(&self, tool: Point, from: &arm::Joints) -> Option<arm::Joints> {
-        Scara::solve(self, tool, &from.array()).map(|joints| arm::Joints::new(&joints))
+        Solver::solve(self, tool, Facing::Down, from)
+    }
+
+    fn margin(&self, tool: Point, facing: Facing) -> f64 {
+        Scara::margin(self, tool, facing)
+    }
+
+    fn solve(&self, tool: Point, facing: Facing, from: &arm::Joints) -> Option<arm::Joints> {
+        Scara::solve(self, tool, facing, &from.array()).map(|joints| arm::Joints::new(&joints))
     }
 
     fn tool_pose(&self, joints: &arm::Joints) -> Pose {
@@ -274,7 +301,8 @@ mod tests {
             let drawn: Joints = arms.ranges.map(|[low, high]| random.between(low, high));
             let tool = forward(base, &arms, drawn);
             assert!((Scara::frames(&scara, &drawn)[3].position - tool).length() < 1e-12);
-            let joints = scara.solve(tool, &drawn).unwrap_or_else(|| panic!("{arms:?} {drawn:?}"));
+            let joints =
+                scara.solve(tool, Facing::Down, &drawn).unwrap_or_else(|| panic!("{arms:?} {drawn:?}"));
             assert!((forward(base, &arms, joints) - tool).length() < 1e-9, "{drawn:?} {joints:?}");
             // On the side from which it comes, these are the joints themselves; near a stretched arm angles are not sharp.
             if drawn[1].abs() > 0.01 {
@@ -296,14 +324,14 @@ mod tests {
         let mut from = scara.joints_at_start();
         for (hand, x, y) in [(1.0, 0.4, 0.1), (-1.0, 0.4, 0.1), (1.0, 0.3, -0.3), (-1.0, 0.3, 0.3)] {
             from[1] = hand;
-            let joints = scara.solve(Point::new(x, y, -0.1), &from).unwrap();
+            let joints = scara.solve(Point::new(x, y, -0.1), Facing::Down, &from).unwrap();
             assert!(joints[1] * hand > 0.0, "{joints:?}");
         }
         // Behind the base only one of them reaches: the other one would turn the inner arm too far.
         let [x, y] = [-0.3, 0.3];
         for hand in [1.0, -1.0] {
             from[1] = hand;
-            assert!(scara.solve(Point::new(x, y, -0.1), &from).unwrap()[1] > 0.0);
+            assert!(scara.solve(Point::new(x, y, -0.1), Facing::Down, &from).unwrap()[1] > 0.0);
         }
     }
 
@@ -322,8 +350,8 @@ mod tests {
             let seen =
                 Point::new(random.between(-0.8, 0.8), random.between(-0.8, 0.8), random.between(-0.4, 0.0));
             let tool = base.point(seen);
-            let margin = scara.margin(tool);
-            let found = scara.solve(tool, &scara.joints_at_start());
+            let margin = scara.margin(tool, Facing::Down);
+            let found = scara.solve(tool, Facing::Down, &scara.joints_at_start());
             assert_eq!(found.is_some(), margin >= 0.0, "{arms:?} {tool:?}");
             let is_in_ring = scara.slack([seen.x, seen.y]) > 0.0 && (-0.3..-0.1).contains(&seen.z);
             let Some(joints) = found else {
@@ -337,7 +365,10 @@ mod tests {
             // Half of them level, in which direction there is least room mostly.
             let way = if reached % 2 == 0 { Point { z: 0.0, ..way } } else { way };
             let moved = tool + way.scaled(0.999 * margin / way.length());
-            assert!(scara.solve(moved, &joints).is_some(), "{arms:?} {tool:?} {margin} {moved:?}");
+            assert!(
+                scara.solve(moved, Facing::Down, &joints).is_some(),
+                "{arms:?} {tool:?} {margin} {moved:?}"
+            );
         }
         assert!(reached > number() / 10 && limited > number() / 50, "{reached} {limited}");
     }
@@ -346,7 +377,7 @@ mod tests {
     #[test]
     fn margins_are_the_distance_to_what_ends_the_reach() {
         let scara = Scara::new(Frame::default(), arms(0.0));
-        let at = |x: f64, y: f64, z: f64| scara.margin(Point::new(x, y, z));
+        let at = |x: f64, y: f64, z: f64| scara.margin(Point::new(x, y, z), Facing::Down);
         let near = |margin: f64, wanted: f64| assert!((margin - wanted).abs() < 1e-9, "{margin} {wanted}");
         near(at(0.55, 0.0, -0.1), 0.05);
         near(at(0.45, 0.0, -0.02), 0.02);

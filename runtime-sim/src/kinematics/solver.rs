@@ -16,19 +16,22 @@ pub trait Solver {
 
     /// How far the tool may go from a place in any direction, at least, until the arm loses it, while it points there;
     /// out of reach negative, m. Minus infinity for an arm whose tool does not point there at all: without a method of
-    /// its own, an arm only points down.
+    /// its own, an arm only points down, and has a turn only if [`Self::keeps_direction`].
     fn margin(&self, tool: Point, facing: Facing) -> f64 {
         match facing {
             Facing::Down => self.margin_down(tool),
-            Facing::Level { .. } => f64::NEG_INFINITY,
+            Facing::Oriented { .. } if self.keeps_direction() => self.margin_down(tool),
+            Facing::Oriented { .. } | Facing::Level { .. } => f64::NEG_INFINITY,
         }
     }
 
-    /// Joints for a place of the tool, near `from`; some exactly when [`Self::margin`] is not negative.
+    /// Joints for a place of the tool, near `from`; some exactly when [`Self::margin`] is not negative. Where the last
+    /// joint alone keeps the direction of a part, it is not turned yet.
     fn solve(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
         match facing {
             Facing::Down => self.solve_down(tool, from),
-            Facing::Level { .. } => None,
+            Facing::Oriented { .. } if self.keeps_direction() => self.solve_down(tool, from),
+            Facing::Oriented { .. } | Facing::Level { .. } => None,
         }
     }
 

@@ -19,6 +19,14 @@ mod described;
 pub mod drive;
 pub(crate) mod motions;
 
+/// The action that gives the tool a turn about the vertical.
+pub const ORIENTED: &str = "oriented";
+
+/// Whether a chain that has these settings has joints of its own: one without them is a Cartesian robot.
+pub fn has_joints(has: impl Fn(&str) -> bool) -> bool {
+    has("speeds")
+}
+
 pub const SCHEMA: Schema = Schema {
     frames: &[
         "base", "shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3", "inner_arm", "outer_arm", "quill",
@@ -34,11 +42,12 @@ pub const SCHEMA: Schema = Schema {
         Action { name: "onto", arguments: &[PortType::Point, PortType::Point] },
         Action { name: "direct", arguments: &[PortType::Point] },
         Action { name: "facing", arguments: &[PortType::Point, PortType::Point] },
+        Action { name: ORIENTED, arguments: &[PortType::Point, PortType::Real] },
     ],
     can_jam: true,
     ..Schema::new(
         "chain",
-        "The joints of an arm that move together, with the tool pointing down, or to a side with `facing`. On one axis, or on two that slide and one that turns: the six joints of a UR10. Fixed at `from`, or on one axis that slides: the six joints of an arm of Universal Robots with `lengths`, or of an arm with a spherical wrist by the parameters `opw`. Fixed at `from`, with `scara`: two arms that turn about vertical axes, a quill that slides and a tool that turns; bodies are on `inner_arm`, `outer_arm`, `quill` and `flange`. On one to three axes at right angles, without `speeds`: a Cartesian robot, which has no joints but its axes.",
+        "The joints of an arm that move together, with the tool pointing down, or to a side with `facing`; `oriented` turns it about the vertical. On one axis, or on two that slide and one that turns: the six joints of a UR10. Fixed at `from`, or on one axis that slides: the six joints of an arm of Universal Robots with `lengths`, or of an arm with a spherical wrist by the parameters `opw`. Fixed at `from`, with `scara`: two arms that turn about vertical axes, a quill that slides and a tool that turns; bodies are on `inner_arm`, `outer_arm`, `quill` and `flange`. On one to three axes at right angles, without `speeds`: a Cartesian robot, which has no joints but its axes.",
         &[
             Setting::new("on", Form::Part(&["axis"]), "", "the last of the axes that carry it").optional(),
             Setting::new("from", Form::Frame, "m", "frame of its base, if no axis carries it").optional(),
@@ -204,6 +213,10 @@ impl Running for Swinging {
             (6, &[x, y, z]) => self.start(Target::Direct(Point::new(x, y, z)), now),
             (7, &[x, y, z, u, v, w]) => {
                 let facing = Facing::new(Point::new(u, v, w)).ok_or(error::UNREACHABLE)?;
+                self.start(Target::Facing(Point::new(x, y, z), facing), now)
+            }
+            (8, &[x, y, z, turn]) => {
+                let facing = Facing::oriented(turn).ok_or(error::UNREACHABLE)?;
                 self.start(Target::Facing(Point::new(x, y, z), facing), now)
             }
             (1, &[speed, acceleration]) => self.limit(speed, acceleration),

@@ -6,6 +6,7 @@ use super::settings::{Form, Setting, Settings};
 use super::{Described, Level, Looks, Progress, Running, Schema, See, Signal, Start, World};
 use crate::carrier::Carrier;
 use crate::device::{Extent, PortType};
+use crate::kinematics::arm::direction_of;
 use crate::kinematics::pose::Pose;
 use crate::point::Point;
 
@@ -266,6 +267,10 @@ impl Running for Gripping {
     fn upper(&self, _carrier: &Carrier, see: &See) -> Option<Point> {
         let back = see.tool(self.grip.chain)?.axis(2).scaled(-1.0);
         (back.z < -OPPOSITE).then_some(back)
+    }
+
+    fn tool_turn(&self, see: &See) -> f64 {
+        see.tool(self.grip.chain).map_or(0.0, |tool| direction_of(&tool))
     }
 
     fn place(&self, _item: usize, carrier: &Carrier, see: &See) -> Option<Point> {

@@ -4,9 +4,11 @@ use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, See, Start, Primitive};
 use crate::carrier::Carrier;
 use crate::frame::Frame;
+use crate::item::Item;
+use crate::item::footprint::Footprint;
 use crate::kinematics::facing::Facing;
 use crate::plant::conveyed::Conveyed;
-use crate::plant::fall::SINK;
+use crate::plant::fall::{Falling, SINK};
 use crate::point::Point;
 
 pub const SCHEMA: Schema = Schema::new(
@@ -36,7 +38,7 @@ pub const SCHEMA: Schema = Schema::new(
             "stacks",
             Form::Truth,
             "",
-            "items lie on one another; without it each lies on the floor. Taking an item on which another one lies ends the run",
+            "items lie on one another, each on the highest of those under any part of it, as they are turned; without it each lies on the floor. Taking an item on which another one lies ends the run",
         )
         .optional(),
         Setting::new(
@@ -129,17 +131,21 @@ impl Bearing {
         (is_near && fits).then_some((point.z, carrier))
     }
 
-    /// The highest upper side of an item under a point, both from the origin; none if no item is there.
-    fn top_under(&self, point: Point, see: &See) -> Option<f64> {
+    /// Of an item of this kind, from the origin.
+    fn footprint(&self, kind: usize, offset: Point, turn: f64) -> Footprint {
+        Footprint::new(self.sizes[kind], offset, turn)
+    }
+
+    /// The highest upper side of an item under another one, from the origin; none if no item is there.
+    fn top_under(&self, point: Point, falls: &Footprint, see: &See) -> Option<f64> {
         if !self.place.stacks {
             return None;
         }
         let tops = see.borne_by(self.part).filter_map(|item| {
-            let item = &see.items[item];
-            let Carrier::Place { offset, .. } = item.carrier else { return None };
-            let (size, from_middle) = (self.sizes[item.kind], point - offset);
-            let is_over = from_middle.x.abs() < size.x / 2.0 && from_middle.y.abs() < size.y / 2.0;
-            let top = offset.z + size.z;
+            let (Item { kind, carrier }, turn) = (see.items[item], see.items.turn(item));
+            let Carrier::Place { offset, .. } = carrier else { return None };
+            let top = offset.z + self.sizes[kind].z;
+            let is_over = falls.overlaps(&self.footprint(kind, offset, turn));
             (is_over && top <= point.z + SINK).then_some(top)
         });
         tops.reduce(f64::max)
@@ -165,7 +171,8 @@ impl Running for Bearing {
         Box::new(self.clone())
     }
 
-    fn below(&self, point: Point, upper: Option<Point>, ms: f64, see: &See) -> Option<(f64, Carrier)> {
+    fn below(&self, falling: &Falling, ms: f64, see: &See) -> Option<(f64, Carrier)> {
+        let Falling { point, upper, kind, turn } = *falling;
         if self.orders.is_some_and(|orders| !see.is_open(orders)) {
             return None;
         }
@@ -178,7 +185,8 @@ impl Running for Bearing {
         let from_middle = seen - floor;
         let is_within = |at: f64, [low, high]: [f64; 2]| (low..=high).contains(&at);
         let meets = is_within(from_middle.x, floor_x) && is_within(from_middle.y, floor_y);
-        let height = self.top_under(seen, see).unwrap_or(floor.z);
+        let falls = self.footprint(kind, seen, turn - frame.yaw.to_radians());
+        let height = self.top_under(seen, &falls, see).unwrap_or(floor.z);
         let offset = Point { z: height, ..seen };
         let carrier = Carrier::Place { machine: see.machine, part: self.part, offset };
         meets.then_some((frame.position.z + height, carrier))
@@ -187,16 +195,16 @@ impl Running for Bearing {
     /// Its underside is at the upper side of the other one, and over it.
     fn lies_on(&self, item: usize, see: &See) -> Option<usize> {
         let on = |item: usize| match see.items[item].carrier {
-            Carrier::Place { offset, .. } => Some((offset, self.sizes[see.items[item].kind])),
+            Carrier::Place { offset, .. } => {
+                let kind = see.items[item].kind;
+                Some((offset.z, self.sizes[kind].z, self.footprint(kind, offset, see.items.turn(item))))
+            }
             _ => None,
         };
-        let (under, size) = on(item).filter(|_| self.place.stacks)?;
+        let (floor, height, under) = on(item).filter(|_| self.place.stacks)?;
         see.borne_by(self.part).find(|other| {
-            on(*other).is_some_and(|(offset, _)| {
-                let from_middle = offset - under;
-                (from_middle.z - size.z).abs() < SAME_HEIGHT
-                    && from_middle.x.abs() < size.x / 2.0
-                    && from_middle.y.abs() < size.y / 2.0
+            on(*other).is_some_and(|(upper, _, lies)| {
+                (upper - floor - height).abs() < SAME_HEIGHT && lies.overlaps(&under)
             })
         })
     }

@@ -13,6 +13,7 @@ use crate::part::orders::Desk;
 use crate::part::stroke::Carriage;
 use crate::part::{lane, scanner, track};
 use crate::plant::conveyed::Conveyed;
+use crate::plant::fall::Falling;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
@@ -282,8 +283,13 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// The height of its surface and what becomes of an item that comes down at this place and time, ms, if it meets that.
-    fn below(&self, _point: Point, _upper: Option<Point>, _ms: f64, _see: &See) -> Option<(f64, Carrier)> {
+    /// How a gripper is turned about the vertical, rad; 0 for what does not turn.
+    fn tool_turn(&self, _see: &See) -> f64 {
+        0.0
+    }
+
+    /// The height of its surface and what becomes of an item that comes down at this time, ms, if it meets that.
+    fn below(&self, _falling: &Falling, _ms: f64, _see: &See) -> Option<(f64, Carrier)> {
         None
     }
 

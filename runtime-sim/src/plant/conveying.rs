@@ -238,6 +238,9 @@ impl Conveying {
         let index = lane.riders.iter().position(|rider| rider.item == item);
         let Some(rider) = index.map(|index| lane.riders.remove(index)) else { return };
         let place = lane.place_at(rider.motion, ms);
+        if centre_line.turns_items() {
+            among.items.set_turn(item, centre_line.frame(place).yaw.to_radians());
+        }
         match goes {
             Goes::Collected { sink } => {
                 let Carrier::Lane { across, .. } = among.carrier(item) else { return };

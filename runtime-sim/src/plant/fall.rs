@@ -7,13 +7,25 @@ use crate::point::Point;
 /// An item that is let go at most so far below a surface lies on it: the reach of a contact, twice, m.
 pub(crate) const SINK: f64 = 0.01;
 
-/// The highest surface under `point`, or what holds an item whose upper side faces there (none: up); the top of an obstacle
-/// or the floor, and where the item then rests. It stays there however
+/// An item that nothing holds.
+#[derive(Clone, Copy, Debug)]
+pub struct Falling {
+    /// Where its underside is.
+    pub point: Point,
+    /// Where its upper side faces; none: up.
+    pub upper: Option<Point>,
+    pub kind: usize,
+    /// About the vertical, rad.
+    pub turn: f64,
+}
+
+/// The highest surface under an item, or what holds it; the top of an obstacle or the floor, and where the item then rests. It stays there however
 /// deep it fell. Items lie on one another only where a place says so.
-pub fn fall(plant: &Plant, (point, upper): (Point, Option<Point>), ms: f64) -> (Carrier, Point) {
+pub fn fall(plant: &Plant, falling: &Falling, ms: f64) -> (Carrier, Point) {
+    let point = falling.point;
     let mut lands: Option<(f64, Carrier)> = None;
     for machine in &plant.machines {
-        let Some((height, carrier)) = machine.below((point, upper), ms, &plant.items, &plant.desk) else {
+        let Some((height, carrier)) = machine.below(falling, ms, &plant.items, &plant.desk) else {
             continue;
         };
         if lands.is_none_or(|(highest, _)| height > highest) {

@@ -272,7 +272,7 @@ impl Plant {
             {
                 self.take_from_under(machine, item);
                 let hang = Point { z: self.grasp(item), ..tool.inverse().point(place) };
-                self.items.pass(item, Carrier::Grip { machine, part, hang }, tool.point(hang));
+                self.hand_over(item, Carrier::Grip { machine, part, hang }, tool.point(hang));
             }
         }
     }

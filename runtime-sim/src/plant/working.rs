@@ -3,7 +3,7 @@
 mod parts;
 
 use super::command::{Answer, Asked, Head};
-use super::fall::SINK;
+use super::fall::{Falling, SINK};
 use super::faults::Faults;
 use super::idle::Idle;
 use super::phase::Phase;
@@ -409,18 +409,12 @@ impl Working {
         }
     }
 
-    pub fn below(
-        &self,
-        (point, upper): (Point, Option<Point>),
-        ms: f64,
-        items: &Items,
-        desk: &Desk,
-    ) -> Option<(f64, Carrier)> {
+    pub fn below(&self, falling: &Falling, ms: f64, items: &Items, desk: &Desk) -> Option<(f64, Carrier)> {
         let see = self.see(items, desk);
-        let surfaces = self.parts.iter().flatten().filter_map(|part| part.below(point, upper, ms, &see));
+        let surfaces = self.parts.iter().flatten().filter_map(|part| part.below(falling, ms, &see));
         // What is over the item does not bear it.
         surfaces
-            .filter(|(height, _)| *height <= point.z + SINK)
+            .filter(|(height, _)| *height <= falling.point.z + SINK)
             .reduce(|best, other| if other.0 > best.0 { other } else { best })
     }
 
@@ -439,6 +433,12 @@ impl Working {
     pub fn upper(&self, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<Point> {
         let part = self.parts.get(carrier.part()?)?.as_ref()?;
         part.upper(carrier, &self.see(items, desk))
+    }
+
+    /// How what bears an item is turned about the vertical, rad; 0 for what does not turn.
+    pub fn turn(&self, carrier: &Carrier, items: &Items, desk: &Desk) -> f64 {
+        let part = carrier.part().and_then(|part| self.parts.get(part)?.as_ref());
+        part.map_or(0.0, |part| part.tool_turn(&self.see(items, desk)))
     }
 
     /// How an item that it bears continues, if it is conveyed or carried.

@@ -29,7 +29,7 @@ impl Described for Chain {
         if on.is_some() == base.is_some() {
             return Err("a chain is on an axis, or it has from".into());
         }
-        let has_joints = settings.has("speeds");
+        let has_joints = super::has_joints(|name| settings.has(name));
         let has_lengths = settings.has("lengths") || settings.has("opw");
         if let Some(name) = FOR_SIX.into_iter().find(|name| settings.has("scara") && settings.has(name)) {
             return Err(format!("the setting {name} is not for a chain with scara"));

@@ -4,6 +4,7 @@ use super::drive::Target;
 use crate::answers::Answers;
 use crate::collision::reach::{Ball, Chain, Radii};
 use crate::kinematics::arm::{Arm, Joints, Limits, MOST_JOINTS};
+use crate::kinematics::facing::Facing;
 use crate::machine::Machine;
 use crate::memory::take;
 use crate::motion::{Knot, Motion, Path, Travel};
@@ -97,8 +98,16 @@ impl Question {
             }
             Target::Facing(goal, facing) => {
                 point(goal);
-                point(&facing.direction());
-                8
+                match facing {
+                    Facing::Oriented { x, y } => {
+                        words.extend([x, y].map(|value| value.to_bits()));
+                        9
+                    }
+                    Facing::Down | Facing::Level { .. } => {
+                        point(&facing.direction());
+                        8
+                    }
+                }
             }
             Target::Turned(goal, turn) => {
                 point(goal);

@@ -3,6 +3,7 @@
 use super::{CentreLine, Lane, RUN_BY};
 use crate::carrier::Carrier;
 use crate::device::error;
+use crate::plant::fall::Falling;
 use crate::part::{Begun, Progress, Running, See, World};
 use crate::plant::conveyed::Conveyed;
 use crate::point::Point;
@@ -240,7 +241,7 @@ impl Running for Moving {
             || self.riders.iter().any(goes)
     }
 
-    fn below(&self, point: Point, _upper: Option<Point>, ms: f64, see: &See) -> Option<(f64, Carrier)> {
+    fn below(&self, &Falling { point, .. }: &Falling, ms: f64, see: &See) -> Option<(f64, Carrier)> {
         let centre_line = self.centre_line(see, ms);
         let (place, across) = centre_line.find(point)?;
         let height = centre_line.point(place, across).z;

@@ -1,0 +1,73 @@
+//! The rectangle that an item takes up, seen from above.
+
+use crate::point::Point;
+
+/// Rectangles that are in one another by no more touch, m.
+const TOUCHES: f64 = 1e-4;
+
+#[derive(Clone, Copy, Debug)]
+pub struct Footprint {
+    middle: [f64; 2],
+    half: [f64; 2],
+    /// Its own x and y.
+    axes: [[f64; 2]; 2],
+}
+
+impl Footprint {
+    /// Of an item of this size whose underside is at a place, turned to the left by so many radians.
+    pub fn new(size: Point, place: Point, turn: f64) -> Self {
+        let (sin, cos) = libm::sincos(turn);
+        Self {
+            middle: [place.x, place.y],
+            half: [size.x / 2.0, size.y / 2.0],
+            axes: [[cos, sin], [-sin, cos]],
+        }
+    }
+
+    /// Half of its width along a direction.
+    fn extent(&self, along: [f64; 2]) -> f64 {
+        (0..2).map(|axis| self.half[axis] * dot(self.axes[axis], along).abs()).sum()
+    }
+
+    /// Whether the two have more than an edge in common: no side of one has the other beyond it.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        let apart = [other.middle[0] - self.middle[0], other.middle[1] - self.middle[1]];
+        let mut sides = self.axes.into_iter().chain(other.axes);
+        sides.all(|along| dot(apart, along).abs() < self.extent(along) + other.extent(along) - TOUCHES)
+    }
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+    #[test]
+    fn turned_rectangles_overlap_where_they_have_an_area_in_common() {
+        let long = Point::new(0.6, 0.2, 0.1);
+        let at = |x: f64, y: f64, turn: f64| Footprint::new(long, Point::new(x, y, 0.0), turn);
+        let middle = at(0.0, 0.0, 0.0);
+        for (x, y, turn, overlaps) in [
+            (0.59, 0.0, 0.0, true),
+            (0.6, 0.0, 0.0, false),
+            (0.0, 0.2, 0.0, false),
+            // Across: 0.3 and 0.1 along x, 0.1 and 0.3 along y.
+            (0.39, 0.0, FRAC_PI_2, true),
+            (0.4, 0.0, FRAC_PI_2, false),
+            (0.0, 0.39, FRAC_PI_2, true),
+            (0.0, 0.41, FRAC_PI_2, false),
+            (0.39, 0.39, FRAC_PI_2, true),
+            // Its sides are 0.1 m from its middle, the nearest corner (0.3, 0.1) is at 0.2/sqrt(2) from the line through it.
+            (0.44, -0.04, -FRAC_PI_4, true),
+            (0.36, 0.24, FRAC_PI_4, true),
+            (0.46, -0.06, FRAC_PI_4, false),
+        ] {
+            assert_eq!(middle.overlaps(&at(x, y, turn)), overlaps, "{x} {y} {turn}");
+            assert_eq!(at(x, y, turn).overlaps(&middle), overlaps, "{x} {y} {turn}");
+        }
+    }
+}
