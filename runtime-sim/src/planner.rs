@@ -16,8 +16,9 @@ mod scene;
 mod seen;
 mod timing;
 
-use crate::kinematics::arm::{Arm, FINEST_TURN, Joints, LINE_STEP, Limits};
+use crate::kinematics::arm::{Arm, FINEST_TURN, Joints, Limits};
 use crate::kinematics::gantry::{Stance, Wrist};
+use crate::kinematics::straight::LINE_STEP;
 use crate::kinematics::{nearest_equivalent, nearest_turn, wrapped};
 use crate::motion::{Knot, Motion, Path};
 use crate::point::Point;

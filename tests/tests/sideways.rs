@@ -67,7 +67,8 @@ fn a_chuck_is_filled_and_emptied_from_the_side() {
             }
             // Goal, then direction: words of the outputs are those of `grip`, `goal`, `ahead` in this order.
             let tool = plant.position(ARM).expect("a tool");
-            let is_at_face = (1.0..1.15).contains(&tool.x) && tool.z > 0.9 && tool.y.abs() < 0.05;
+            // Behind the bow of the motion to the approach, which all joints make together.
+            let is_at_face = (1.04..1.15).contains(&tool.x) && tool.z > 0.9 && tool.y.abs() < 0.05;
             if is_at_face {
                 off = off.max(tool.y.abs()).max((tool.z - 1.0).abs());
             }

@@ -20,14 +20,6 @@ use std::ops::Deref;
 
 /// The joint of a torso.
 pub(super) const TORSO: usize = 2;
-/// A tool that is not farther from a vertical line is on it, and an axis that moves less stands, m or rad.
-const ALIGNED: f64 = 1e-6;
-/// On a straight line of the tool the joints change evenly for so many metres: it is off the line by less than 0.2 mm.
-pub const LINE_STEP: f64 = 0.025;
-/// A longer line is not straight.
-const MOST_STEPS: f64 = 200.0;
-/// The joints of two places so near to one another differ by less, rad: else the arm has turned over.
-const NEAR_JOINTS: f64 = 0.5;
 /// Most joints that a robot has.
 pub const MOST_JOINTS: usize = 9;
 
@@ -194,7 +186,7 @@ impl Arm {
         Some(Self { family, limits: Limits { velocity, acceleration } })
     }
 
-    fn solver(&self) -> &dyn Solver {
+    pub(super) fn solver(&self) -> &dyn Solver {
         match &self.family {
             Family::Cartesian(robot) => robot,
             Family::Scara(arm) => arm,
@@ -264,78 +256,22 @@ impl Arm {
     /// turn of its own, a part on the tool keeps its direction, if that is for the last joint to do: it turns back what the
     /// others turn.
     pub fn solve_facing(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
-        let joints = self.solver().solve(tool, facing, from)?;
+        Some(self.with_part_of(from, facing, self.solver().solve(tool, facing, from)?))
+    }
+
+    /// [`Self::solve_facing`], however the arm bends: the joints nearest to `from`.
+    pub(super) fn solve_near(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
+        Some(self.with_part_of(from, facing, self.solver().solve_near(tool, facing, from)?))
+    }
+
+    /// The same joints but for the last one, which gives a part the direction that it has to have, if that is for it to do.
+    fn with_part_of(&self, from: &Joints, facing: Facing, joints: Joints) -> Joints {
         if !self.solver().keeps_direction() {
-            return Some(joints);
+            return joints;
         }
-        Some(Self::within_limits(match facing {
+        Self::within_limits(match facing {
             Facing::Oriented { x, y } => self.with_direction(from, libm::atan2(y, x), joints),
             Facing::Down | Facing::Level { .. } => self.with_direction_of(from, joints),
-        }))
-    }
-
-    /// Joints to pass on the way of the tool to a place, the last ones there: straight up or down in small steps where
-    /// the place is over or under the tool and nothing but the arm has to move, else at once. Some exactly when
-    /// [`Self::margin`] is not negative.
-    pub fn line_to(&self, tool: Point, from: &Joints) -> Option<Vec<Joints>> {
-        let goal = self.solve(tool, from)?;
-        Some(self.vertical(tool, from).unwrap_or_else(|| vec![goal]))
-    }
-
-    /// Joints to pass on the way of the tool to a place where it points there, the last ones there: in a straight line in
-    /// small steps if it points there already and goes along this direction, to or fro, else at once. Some exactly when
-    /// [`Self::margin_facing`] is not negative.
-    pub fn line_facing(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Vec<Joints>> {
-        let goal = self.solve_facing(tool, facing, from)?;
-        Some(self.along(tool, facing, from).unwrap_or_else(|| vec![goal]))
-    }
-
-    fn along(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Vec<Joints>> {
-        let (start, ahead) = (self.tool_pose(from), facing.direction());
-        let way = tool - start.position;
-        let aside = way - ahead.scaled(way.dot(ahead));
-        let is_along = aside.length() < ALIGNED && facing.is_of(&start, ALIGNED);
-        let steps = (way.length() / LINE_STEP).ceil();
-        (is_along && steps > 1.0 && steps <= MOST_STEPS).then_some(())?;
-        let standing = match facing {
-            Facing::Oriented { .. } => self.solver().standing()?,
-            Facing::Down | Facing::Level { .. } => 0,
-        };
-        self.stepped(steps, standing, from, |i, last| {
-            self.solve_facing(tool - way.scaled(1.0 - f64::from(i) / steps), facing, last)
-        })
-    }
-
-    /// Joints after each of so many steps, each from those before; none if one cannot be solved, goes far, or moves one of
-    /// the first joints, which have to stand.
-    fn stepped(
-        &self,
-        steps: f64,
-        standing: usize,
-        from: &Joints,
-        solve: impl Fn(u32, &Joints) -> Option<Joints>,
-    ) -> Option<Vec<Joints>> {
-        let mut all: Vec<Joints> = Vec::new();
-        for i in 1..=steps as u32 {
-            let last = *all.last().unwrap_or(from);
-            let next = solve(i, &last)?;
-            let stands = (0..standing).all(|j| (next[j] - last[j]).abs() < ALIGNED);
-            let is_near = next.iter().zip(last.iter()).all(|(a, b)| (a - b).abs() < NEAR_JOINTS);
-            (stands && is_near).then_some(())?;
-            all.push(next);
-        }
-        Some(all)
-    }
-
-    fn vertical(&self, tool: Point, from: &Joints) -> Option<Vec<Joints>> {
-        let standing = self.solver().standing()?;
-        let start = self.tool(from);
-        let is_over = (tool.x - start.x).abs() < ALIGNED && (tool.y - start.y).abs() < ALIGNED;
-        let steps = ((tool.z - start.z).abs() / LINE_STEP).ceil();
-        (is_over && steps > 1.0 && steps <= MOST_STEPS).then_some(())?;
-        self.stepped(steps, standing, from, |i, last| {
-            let z = start.z + (tool.z - start.z) * f64::from(i) / steps;
-            self.solve(Point { z, ..tool }, last)
         })
     }
 

@@ -17,6 +17,9 @@ pub const JOINTS: usize = 6;
 /// The first joint of the wrist.
 const WRIST: usize = 3;
 
+/// More than a joint can go, rad.
+const UNUSUAL: f64 = 4.0 * PI;
+
 /// How Universal Robots draws it: upper arm up, forearm level, tool down.
 const USUAL: Angles = [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0];
 
@@ -192,7 +195,7 @@ impl FixedArm {
             match &self.geometry {
                 Geometry::UniversalRobots(lengths) => {
                     let all = lengths.inverse(&tool).into_iter();
-                    all.map(|angles| (angles, angles[2] >= 0.0)).collect::<Vec<_>>()
+                    all.map(|angles| (angles, lengths.is_usual(&tool, &angles))).collect::<Vec<_>>()
                 }
                 Geometry::OrthoParallel(opw) => {
                     let all = opw.inverse(&tool).into_iter();
@@ -226,15 +229,25 @@ impl FixedArm {
     }
 
     /// Joints that bring the tool, pointing there, to a place; some exactly when [`Self::margin`] is not negative. Pointing
-    /// down its x lies along the base's x, one way or the other; level its x is vertical. Of all ways with the elbow up, else of all, the one on which the joint
-    /// that goes farthest goes least.
+    /// down its x lies along the base's x, one way or the other; level its x is vertical. Of the usual ways, with the elbow
+    /// up and the arm over its front, else of all, the one on which the joint that goes farthest goes least.
     pub fn solve(&self, tool: Point, facing: Facing, from: &Angles) -> Option<Angles> {
+        self.nearest(tool, facing, from, UNUSUAL)
+    }
+
+    /// [`Self::solve`], however the arm bends.
+    pub fn solve_near(&self, tool: Point, facing: Facing, from: &Angles) -> Option<Angles> {
+        self.nearest(tool, facing, from, 0.0)
+    }
+
+    /// An unusual way counts as if the joint that goes farthest went farther by this, rad.
+    fn nearest(&self, tool: Point, facing: Facing, from: &Angles, unusual: f64) -> Option<Angles> {
         if self.margin(tool, facing) < 0.0 {
             return None;
         }
         let cost = |found: &Candidate| {
             let farthest = found.angles.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            if found.is_usual { farthest } else { farthest + 4.0 * PI }
+            if found.is_usual { farthest } else { farthest + unusual }
         };
         let found = self
             .candidates(self.seen(tool), self.seen_facing(facing), from)
@@ -343,6 +356,10 @@ impl Solver for FixedArm {
         FixedArm::solve(self, tool, facing, &from.array()).map(|joints| Joints::new(&joints))
     }
 
+    fn solve_near(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
+        FixedArm::solve_near(self, tool, facing, &from.array()).map(|joints| Joints::new(&joints))
+    }
+
     fn tool_pose(&self, joints: &Joints) -> Pose {
         FixedArm::tool_pose(self, &joints.array())
     }
@@ -404,6 +421,32 @@ mod tests {
             (reached, from) = (reached + 1, joints);
         }
         assert!(reached > 15_000, "{reached}");
+    }
+
+    /// Away from the base, the elbow is above the line from the shoulder to the end of the forearm, on both sides of the base
+    /// and under a ceiling.
+    #[test]
+    fn the_elbow_is_up_all_around() {
+        let mut random = Random::new(15);
+        let base = Frame::new(Point::new(0.3, -0.2, 0.75), 30.0);
+        for (mounting, up) in [(Mounting::Upright, 1.0), (Mounting::Hung, -1.0)] {
+            let arm = FixedArm::new(base, Geometry::UniversalRobots(UR10E), None).mounted(mounting);
+            let (mut reached, mut from) = (0, arm.start());
+            for i in 0..20_000 {
+                let mut drawn = || random.between(-1.3, 1.3);
+                let tool = Point::new(drawn(), drawn(), 0.75 + drawn());
+                let turn = drawn();
+                let facing =
+                    if i % 3 == 0 { Facing::Level { x: turn.cos(), y: turn.sin() } } else { Facing::Down };
+                let Some(joints) = arm.solve(tool, facing, &from) else { continue };
+                let [shoulder, elbow, end, ..] = arm.frames(&joints).map(|frame| frame.position);
+                let (line, bend) = (end - shoulder, elbow - shoulder);
+                let off = bend - line.scaled(bend.dot(line) / line.dot(line));
+                assert!(up * off.z >= -1e-9, "{mounting:?} {tool:?} {off:?}");
+                (reached, from) = (reached + 1, joints);
+            }
+            assert!(reached > 3_000, "{reached}");
+        }
     }
 
     /// The margin is that of the length of the links: it changes by no more than the tool goes.

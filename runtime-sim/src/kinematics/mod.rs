@@ -17,6 +17,7 @@ pub mod riding;
 mod room;
 pub mod scara;
 pub mod solver;
+pub mod straight;
 pub mod ur;
 pub mod ur10;
 

@@ -75,12 +75,26 @@ impl RidingArm {
     /// Joints that bring the tool, pointing there, to a place, near `from`; some exactly when [`Self::margin`] is not
     /// negative.
     pub fn solve(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
+        self.solve_as(tool, from, |seen, angles| self.arm.solve(seen, facing, angles))
+    }
+
+    /// [`Self::solve`], however the arm bends.
+    pub fn solve_near(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
+        self.solve_as(tool, from, |seen, angles| self.arm.solve_near(seen, facing, angles))
+    }
+
+    fn solve_as(
+        &self,
+        tool: Point,
+        from: &Joints,
+        solve: impl Fn(Point, &Angles) -> Option<Angles>,
+    ) -> Option<Joints> {
         if !is_finite(tool) {
             return None;
         }
         let [_, angles @ ..] = *from;
         let (place, seen) = self.seen(tool);
-        Some(self.joints(place, self.arm.solve(seen, facing, &angles)?))
+        Some(self.joints(place, solve(seen, &angles)?))
     }
 
     fn joints(&self, place: f64, angles: Angles) -> Joints {
@@ -146,6 +160,10 @@ impl Solver for RidingArm {
 
     fn solve(&self, tool: Point, facing: Facing, from: &arm::Joints) -> Option<arm::Joints> {
         RidingArm::solve(self, tool, facing, &from.array()).map(|joints| arm::Joints::new(&joints))
+    }
+
+    fn solve_near(&self, tool: Point, facing: Facing, from: &arm::Joints) -> Option<arm::Joints> {
+        RidingArm::solve_near(self, tool, facing, &from.array()).map(|joints| arm::Joints::new(&joints))
     }
 
     fn tool_pose(&self, joints: &arm::Joints) -> Pose {

@@ -35,6 +35,12 @@ pub trait Solver {
         }
     }
 
+    /// [`Self::solve`], however the arm bends: the joints nearest to `from`. An arm without a method of its own bends in one
+    /// way only.
+    fn solve_near(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
+        self.solve(tool, facing, from)
+    }
+
     fn tool_pose(&self, joints: &Joints) -> Pose;
 
     /// Pose of the link behind each joint, world frame, in the order of the joints; the last is the tool's.

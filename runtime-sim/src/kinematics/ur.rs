@@ -37,6 +37,19 @@ impl Lengths {
         tool.position - tool.axis(2).scaled(self.tool)
     }
 
+    /// Whether the arm leans over the side to which it is drawn with all angles 0, with the elbow above the line from the
+    /// shoulder to the end of the forearm. The tool is in the frame of the base.
+    pub(super) fn is_usual(&self, tool: &Pose, angles: &Angles) -> bool {
+        let [first, second, third, ..] = *angles;
+        let (sin, cos) = libm::sincos(first);
+        let Point { x, y, .. } = self.wrist(tool);
+        let is_front = (x * cos + y * sin) * self.a2 >= 0.0;
+        let end_ahead = self.a2 * libm::cos(second) + self.a3 * libm::cos(second + third);
+        // Twice the area of the triangle of shoulder, end and elbow: over 0 where the elbow is to the left.
+        let elbow_left = -self.a2 * self.a3 * libm::sin(third);
+        is_front && elbow_left * end_ahead >= 0.0
+    }
+
     /// How the arm bends at these angles, its tool vertical or level at a place.
     pub(super) fn bent(&self, tool: &Pose, angles: &Angles) -> Bent {
         let [first, second, third, ..] = *angles;

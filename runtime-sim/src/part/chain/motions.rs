@@ -192,10 +192,10 @@ impl Motions {
         stored: Option<&Option<Vec<Joints>>>,
     ) -> Option<Motion> {
         let knots = match target {
-            Target::Place(goal) => self.arm.line_to(*goal, directed)?.into_iter().map(Knot::new).collect(),
+            Target::Place(goal) => self.arm.line_to(*goal, directed).ok()?.into_iter().map(Knot::new).collect(),
             Target::Direct(goal) => vec![Knot::new(self.arm.solve(*goal, directed)?)],
             Target::Facing(goal, facing) => {
-                self.arm.line_facing(*goal, *facing, directed)?.into_iter().map(Knot::new).collect()
+                self.arm.line_facing(*goal, *facing, directed).ok()?.into_iter().map(Knot::new).collect()
             }
             Target::Turned(goal, turn) => vec![Knot::new(self.arm.solve_turned(*goal, *turn, directed)?)],
             Target::Past(via, goal) => {
