@@ -405,6 +405,38 @@ mod tests {
         }
     }
 
+    /// Like a straight line of a tool: short lines, all corners between.
+    fn many_corners() -> Motion {
+        let knot = |i: u32| {
+            let t = f64::from(i) / 14.0;
+            Knot::new(joints(&[0.9 * t.sin(), 1.4 * (1.0 - t * t).sqrt(), -0.8 * t * t]))
+        };
+        let knots: Vec<Knot> = (1..=13).map(knot).collect();
+        Motion::past(joints(&[0.0, 1.4, 0.0]), &knots, &limits(), 0.0)
+    }
+
+    #[test]
+    fn many_corners_held_for_a_moment_keep_their_limits() {
+        let whole = many_corners().ends_at().unwrap();
+        for part in 0..200 {
+            let halt = whole * f64::from(part) / 198.0;
+            for pause in [0.02, 0.06, 0.1, 0.2, 0.4] {
+                let steer = |motion: &mut Motion, t: f64| {
+                    if t >= halt && t < halt + pause {
+                        motion.hold(t);
+                    } else if t >= halt + pause {
+                        motion.resume(t);
+                    }
+                };
+                let (velocity, acceleration, motion) =
+                    worst_of(many_corners(), &limits(), whole + pause + 4.0, steer);
+                assert!(velocity <= 1.0 + 1e-9, "{velocity} held at {halt}");
+                assert!(acceleration <= 1.0 + 1e-6, "{acceleration} held at {halt} for {pause}");
+                assert!(motion.has_ended(whole + pause + 4.0));
+            }
+        }
+    }
+
     #[test]
     fn a_corner_held_and_held_again_keeps_its_limits() {
         let mut random = Random::new(22);

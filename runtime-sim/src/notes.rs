@@ -2,8 +2,9 @@
 
 use crate::item::Names;
 use crate::line::{Line, LineButton};
-use crate::plant::{Missed, Plant};
-use crate::report::{Outcome, carrier_text, seconds};
+use crate::plant::{Entry, NotRemoved, Plant};
+use crate::report::{MissedReport, Outcome, carrier_text, seconds};
+use std::collections::BTreeSet;
 
 /// What the scenario has go wrong, or somebody do, that did not happen, a line each.
 pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String> {
@@ -65,8 +66,8 @@ pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String>
         let missed = missed.map(|missed| {
             let at_s = seconds(removal.at_scan, line.scan_ms);
             let why = match missed {
-                Missed::Elsewhere(carrier) => format!("its carrier was: {}", carrier_text(line, carrier)),
-                Missed::Under(upper) => format!("{} lay on it; remove this one first", names.name(upper)),
+                NotRemoved::Elsewhere(carrier) => format!("its carrier was: {}", carrier_text(line, carrier)),
+                NotRemoved::Under(upper) => format!("{} lay on it; remove this one first", names.name(upper)),
             };
             format!("not reached: {what} at {at_s:.2} s, when {why}")
         });
@@ -82,4 +83,45 @@ pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String>
         .chain(removals)
         .flatten()
         .collect()
+}
+
+/// Lines about commands that ended in an error of reach.
+const MOST_MISSED: usize = 5;
+
+/// Commands that ended in an error of reach, a line each.
+pub fn missed(line: &Line, plant: &Plant) -> Vec<String> {
+    let machines = line.machines.iter().enumerate();
+    let mut entries: Vec<_> = machines
+        .flat_map(|(index, machine)| {
+            let entries = plant.missed(index).into_iter().flat_map(|missed| missed.entries());
+            entries.map(|entry| (&machine.name, entry))
+        })
+        .collect();
+    entries.sort_by_key(|(_, entry)| entry.first_ms);
+    let more = entries.len().saturating_sub(MOST_MISSED);
+    let one = |(name, entry): &(&String, &Entry)| {
+        let Entry { command, missed, count, first_ms } = entry;
+        let first_s = *first_ms as f64 / 1000.0;
+        let often = if *count > 1 { format!(", {count} times") } else { String::new() };
+        format!("command {command} of {name} ended in error 1 at {first_s:.2} s{often}: {missed}")
+    };
+    let mut notes: Vec<String> = entries.iter().take(MOST_MISSED).map(one).collect();
+    if more > 0 {
+        let machines: BTreeSet<&str> = entries[MOST_MISSED..].iter().map(|(name, _)| name.as_str()).collect();
+        let machines: Vec<&str> = machines.into_iter().take(MOST_MISSED).collect();
+        notes.push(format!(
+            "{more} more commands to other places ended in error 1, of {}",
+            machines.join(", ")
+        ));
+    }
+    notes
+}
+
+/// The same at each time, for the alarms of a report.
+pub fn missed_times(line: &Line, plant: &Plant) -> Vec<MissedReport> {
+    let of = |machine: usize| {
+        let times = plant.missed(machine).into_iter().flat_map(|missed| missed.times());
+        times.map(move |(at_ms, entry)| MissedReport { machine, at_ms, text: entry.missed.to_string() })
+    };
+    (0..line.machines.len()).flat_map(of).collect()
 }

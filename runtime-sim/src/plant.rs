@@ -8,6 +8,7 @@ pub(crate) mod fall;
 mod faults;
 mod gripping;
 mod idle;
+mod missed;
 mod phase;
 mod removing;
 mod sight;
@@ -34,7 +35,8 @@ use conveying::{Among, Conveying, Falls, View};
 pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use fall::Falling;
 use gripping::{Lying, NextLook};
-pub use removing::Missed;
+pub(crate) use missed::{Entry, MissedCommands};
+pub use removing::NotRemoved;
 use removing::Removing;
 use trajectory::Trajectory;
 use upright::Upright;
@@ -430,6 +432,11 @@ impl Plant {
     /// How many commands a machine has been given.
     pub(crate) fn commands(&self, machine: usize) -> u32 {
         self.machines.get(machine).map_or(0, Working::commands)
+    }
+
+    /// The commands of a machine that ended in an error of reach.
+    pub(crate) fn missed(&self, machine: usize) -> Option<&MissedCommands> {
+        Some(self.machines.get(machine)?.missed())
     }
 
     /// How many items the grippers of a machine have attached.

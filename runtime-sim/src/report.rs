@@ -21,6 +21,8 @@ pub struct Report {
     pub reason: String,
     /// What the scenario asks that did not happen, and that the line stands without a fault.
     pub notes: Vec<String>,
+    /// Commands that ended in an error of reach, by machine.
+    pub missed: Vec<MissedReport>,
     /// Code and machine of the fault that ended the run.
     pub fault: Option<(i32, String)>,
     /// When it came.
@@ -73,6 +75,16 @@ pub struct FaultReport {
     pub at_s: f64,
     /// `None` if it is there at the end.
     pub cleared_s: Option<f64>,
+}
+
+/// A command that ended in an error of reach.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MissedReport {
+    /// Its number in the layout.
+    pub machine: usize,
+    pub at_ms: u64,
+    /// Why.
+    pub text: String,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -165,10 +177,12 @@ impl Report {
         let stands = outcome.stands_since.map(|scan| stands_text(seconds(scan)));
         let late = outcome.fault_at.filter(|at| at + 1 < outcome.scans).map(|at| late_text(seconds(at)));
         let notes = stands.into_iter().chain(late).chain(notes::not_reached(line, plant, &outcome));
+        let notes = notes.chain(notes::missed(line, plant));
         Self {
             finished: outcome.finished,
             reason: outcome.reason,
             notes: notes.collect(),
+            missed: notes::missed_times(line, plant),
             fault: outcome.fault.map(|(code, machine)| {
                 (code, machine.map_or_else(String::new, |machine| line.machines[machine].name.clone()))
             }),

@@ -31,6 +31,7 @@ mod limits;
 mod lines;
 mod looking_ahead;
 mod margins;
+mod missed;
 mod mistakes;
 mod mutants;
 mod names;

@@ -296,10 +296,10 @@ impl Context<'_, '_> {
         };
         let is_active = matches!(kind, ir::RoleKind::Takes | ir::RoleKind::Hands);
         if is_active && !self.automaton.device.is_arm() {
-            let message = format!(
-                "a `{}` has no arm, so it takes nothing and hands nothing over",
-                self.automaton.device.name
-            );
+            let device = &self.automaton.device;
+            let lacks = if device.has("chain") { "gripper, a `grip`" } else { "arm" };
+            let message =
+                format!("a `{}` has no {lacks}, so it takes nothing and hands nothing over", device.name);
             self.report(
                 Diagnostic::new("E0322", tree.name.span, message)
                     .help("`takes from` and `hands to` are for arms; a passive place has `is ... accepts at` or `offers at`"),

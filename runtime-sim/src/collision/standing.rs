@@ -4,6 +4,7 @@ use super::body::{Piece, Placed};
 use super::bounds::BoundingBox;
 use super::sweep::Sweep;
 use crate::frame::Frame;
+use crate::kinematics::arm::Frames;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
 use crate::machine::Machine;
@@ -23,11 +24,12 @@ struct Thing<'a> {
     bounds: BoundingBox,
 }
 
-/// Of what no joint moves, with vehicles at their first stops; two obstacles may overlap, and so may those
+/// Of all bodies at the start, arms at their rest and vehicles at their first stops; two obstacles may overlap, and so may those
 /// that the layout allows to touch. The first pair of solids of each two, and `most` of them at most.
 pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
     let machines = line.machines.iter().map(|machine| {
         let start = machine.start().unwrap_or_default().pose();
+        let links = at_rest(machine);
         let solids = machine.solids().into_iter().filter_map(|solid| match solid.link {
             Link::World => Some(solid),
             Link::Route => Some(Solid { pose: start.then(&solid.pose), ..solid }),
@@ -35,7 +37,10 @@ pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
                 let frame = at_begin(machine, part);
                 Some(Solid { pose: frame.pose().then(&solid.pose), ..solid })
             }
-            Link::Joint(_) => None,
+            Link::Joint(joint) => {
+                let frame = links.as_ref()?.get(joint)?;
+                Some(Solid { pose: frame.then(&solid.pose), ..solid })
+            }
         });
         thing(&machine.name, true, solids)
     });
@@ -47,6 +52,12 @@ pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
         (first.is_machine || second.is_machine) && !line.allows([first.name, second.name])
     });
     matter.filter_map(|[first, second]| overlap(first, second)).take(most).collect()
+}
+
+/// Of the links of an arm when a run begins.
+fn at_rest(machine: &Machine) -> Option<Frames> {
+    let (arm, chain) = (machine.arm()?, machine.chain()?);
+    Some(arm.frames(&arm.solve(chain.rest, &arm.start())?))
 }
 
 /// What is on a cylinder or a positioner when a run begins.

@@ -214,8 +214,9 @@ fn even(place: f64, distance: f64, [speed, out]: [f64; 2]) -> Phase {
 
 /// From `place` with `speed` to rest, as soon as the zones allow; and the place of rest.
 pub fn to_rest(zones: &[Zone], mut place: f64, mut speed: f64) -> (Vec<Phase>, f64) {
+    let zones = &zones[present(zones, place)..];
     let mut phases = Vec::new();
-    for zone in zones.iter().skip(present(zones, place)) {
+    for (zone, leave) in zones.iter().zip(leaving(zones)) {
         let distance = (zone.end - place).max(0.0);
         let loss = match &zone.limit {
             Limit::Straight(gain) => -gain,
@@ -223,6 +224,12 @@ pub fn to_rest(zones: &[Zone], mut place: f64, mut speed: f64) -> (Vec<Phase>, f
         };
         let left = speed * speed + 2.0 * loss * distance;
         let out = if left > 0.0 && zone.end < 1.0 { left.sqrt() } else { 0.0 };
+        // A corner may let the joints lose less speed than what comes behind it asks for.
+        if out > leave && matches!(zone.limit, Limit::Corner(_)) {
+            phases.push(even(place, distance, [speed, leave]));
+            (place, speed) = (zone.end, leave);
+            continue;
+        }
         let duration = if out > 0.0 { 2.0 * distance / (speed + out) } else { -speed / loss };
         let braking = Phase { duration, place, speed, acceleration: loss };
         phases.push(braking);

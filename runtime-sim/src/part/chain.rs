@@ -14,9 +14,11 @@ use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::planner::{End, Load, Transfer};
 use drive::{Drive, Moved, Target};
+use missed::{Missed, Why};
 
 mod described;
 pub mod drive;
+pub mod missed;
 pub(crate) mod motions;
 
 /// The action that gives the tool a turn about the vertical.
@@ -178,15 +180,22 @@ pub struct Swinging {
     drive: Drive,
     /// What may hold an item at its tool.
     grip: Option<usize>,
+    /// Why the last command that ended in [`error::UNREACHABLE`] did.
+    missed: Option<Missed>,
 }
 
 impl Swinging {
     pub fn new(drive: Drive, grip: Option<usize>) -> Self {
-        Self { drive, grip }
+        Self { drive, grip, missed: None }
     }
 
     fn start(&mut self, target: Target, now: f64) -> Result<Begun, i32> {
-        self.drive.start(target, now).map(|()| Begun::UnderWay).ok_or(error::UNREACHABLE)
+        self.drive.start(target, now).map(|()| Begun::UnderWay).map_err(|missed| self.miss(missed))
+    }
+
+    fn miss(&mut self, missed: Missed) -> i32 {
+        self.missed = Some(missed);
+        error::UNREACHABLE
     }
 
     fn limit(&mut self, speed: f64, acceleration: f64) -> Result<Begun, i32> {
@@ -212,8 +221,10 @@ impl Running for Swinging {
             (0, &[x, y, z]) => self.start(Target::Place(Point::new(x, y, z)), now),
             (6, &[x, y, z]) => self.start(Target::Direct(Point::new(x, y, z)), now),
             (7, &[x, y, z, u, v, w]) => {
-                let facing = Facing::new(Point::new(u, v, w)).ok_or(error::UNREACHABLE)?;
-                self.start(Target::Facing(Point::new(x, y, z), facing), now)
+                let place = Point::new(x, y, z);
+                let facing = Facing::new(Point::new(u, v, w));
+                let facing = facing.ok_or_else(|| self.miss(Missed { place, why: Why::Direction }))?;
+                self.start(Target::Facing(place, facing), now)
             }
             (8, &[x, y, z, turn]) => {
                 let facing = Facing::oriented(turn).ok_or(error::UNREACHABLE)?;
@@ -252,8 +263,12 @@ impl Running for Swinging {
         match self.drive.advance(seconds(world.next_ms())) {
             Moved::Moving => Progress::Going,
             Moved::Arrived => Progress::Reached,
-            Moved::Lost => Progress::Failed(error::UNREACHABLE),
+            Moved::Lost(missed) => Progress::Failed(self.miss(missed)),
         }
+    }
+
+    fn missed(&self) -> Option<Missed> {
+        self.missed
     }
 
     fn signal(&self, _signal: usize, _see: &See, out: &mut [f64]) {

@@ -1,5 +1,6 @@
 //! What a part does while a line runs.
 
+use super::chain::missed::Missed;
 use crate::carrier::Carrier;
 use crate::device::error;
 use crate::item::Items;
@@ -187,6 +188,11 @@ pub trait Running: std::fmt::Debug + Send + Sync {
     /// Begins a numbered command; the one before it is void. An error is a code of [`error`].
     fn begin(&mut self, _action: usize, _arguments: &[f64], _world: &mut World) -> Result<Begun, i32> {
         Err(error::REFUSED)
+    }
+
+    /// Why the last command that ended in [`error::UNREACHABLE`] did, if it is known.
+    fn missed(&self) -> Option<Missed> {
+        None
     }
 
     /// The command is void, or has ended in error.

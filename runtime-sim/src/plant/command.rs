@@ -179,10 +179,10 @@ impl Head {
         }
     }
 
-    /// The command whose action is under way.
-    pub fn acting(&self) -> Option<&Command> {
+    /// The command whose action is under way, with its number among those of the wiring.
+    pub fn acting(&self) -> Option<(usize, &Command)> {
         let task = self.task.filter(|task| task.waited_ms.is_none())?;
-        self.wiring.commands.get(task.command)
+        Some((task.command, self.wiring.commands.get(task.command)?))
     }
 
     /// The part on which a command is under way.
@@ -192,7 +192,7 @@ impl Head {
 
     /// The action of the command under way has ended successfully.
     pub fn reach(&mut self, ends_ms: u64) {
-        match (self.acting().and_then(|command| command.then), &mut self.task) {
+        match (self.acting().and_then(|(_, command)| command.then), &mut self.task) {
             (Some(_), Some(task)) => task.waited_ms = Some(0),
             _ => self.end(error::NONE, ends_ms),
         }

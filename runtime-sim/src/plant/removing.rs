@@ -11,12 +11,12 @@ pub struct Removing {
     item: Option<usize>,
     at_scan: u64,
     /// Why it was not taken away.
-    pub missed: Option<Missed>,
+    pub missed: Option<NotRemoved>,
 }
 
 /// Why an item was not taken away.
 #[derive(Clone, Copy, Debug)]
-pub enum Missed {
+pub enum NotRemoved {
     /// It was not on the line: not there yet, in a gripper, a part of another item, or gone.
     Elsewhere(Carrier),
     /// This item lay on it.
@@ -46,17 +46,17 @@ impl Plant {
             match (carrier, self.place(item)) {
                 (Carrier::Lane { .. } | Carrier::Place { .. } | Carrier::Floor { .. }, Some(point)) => {
                     match self.lies_on(item) {
-                        Some(upper) => self.removing[number].missed = Some(Missed::Under(upper)),
+                        Some(upper) => self.removing[number].missed = Some(NotRemoved::Under(upper)),
                         None => self.items.pass(item, Carrier::Collector, point),
                     }
                 }
-                _ => self.removing[number].missed = Some(Missed::Elsewhere(carrier)),
+                _ => self.removing[number].missed = Some(NotRemoved::Elsewhere(carrier)),
             }
         }
     }
 
     /// Of each removal of the scenario why nothing was taken away.
-    pub(crate) fn missed_removals(&self) -> impl Iterator<Item = Option<Missed>> {
+    pub(crate) fn missed_removals(&self) -> impl Iterator<Item = Option<NotRemoved>> {
         self.removing.iter().map(|removing| removing.missed)
     }
 }

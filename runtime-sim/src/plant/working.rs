@@ -6,6 +6,7 @@ use super::command::{Answer, Asked, Head};
 use super::fall::{Falling, SINK};
 use super::faults::Faults;
 use super::idle::Idle;
+use super::missed::MissedCommands;
 use super::phase::Phase;
 use crate::carrier::Carrier;
 use crate::device::error;
@@ -46,6 +47,7 @@ pub struct Working {
     order: Vec<usize>,
     /// Items that its grippers have taken.
     picks: u32,
+    missed: MissedCommands,
     faults: Faults,
     pub(super) idle: Idle,
     pub(super) phase: Phase,
@@ -111,6 +113,7 @@ impl Working {
             serving: (0..parts.len()).filter(serves).collect(),
             order,
             picks: 0,
+            missed: MissedCommands::default(),
             parts,
             head: Head::new(&machine.wiring, kinds, refusals, answers.collect()),
             inputs: ranges(machine.wiring.inputs.iter().map(|input| input.size.words(kinds))),
@@ -128,6 +131,10 @@ impl Working {
 
     pub fn picks(&self) -> u32 {
         self.picks
+    }
+
+    pub fn missed(&self) -> &MissedCommands {
+        &self.missed
     }
 
     /// Cycles of a process that have begun.
@@ -188,6 +195,18 @@ impl Working {
         }
     }
 
+    /// The command with this number among those of the wiring has ended in error.
+    fn fail(&mut self, command: usize, error: i32, ends_ms: u64) {
+        let asked = &self.wiring.commands[command];
+        let part = self.parts.get(asked.part).and_then(Option::as_ref);
+        if error == error::UNREACHABLE
+            && let Some(missed) = part.and_then(|part| part.missed())
+        {
+            self.missed.add(asked.number, missed, ends_ms);
+        }
+        self.end(error, ends_ms);
+    }
+
     /// Takes a command and all levels.
     pub fn obey(&mut self, outputs: &[f64], shared: &mut Shared) {
         self.command(outputs, shared);
@@ -246,7 +265,7 @@ impl Working {
             Ok(Begun::Ended) => self.end(error::NONE, shared.next_ms()),
             Err(error) => {
                 self.abandon(shared.now_ms);
-                self.end(error, shared.next_ms());
+                self.fail(command, error, shared.next_ms());
             }
         }
     }
@@ -272,9 +291,9 @@ impl Working {
             let part = self.order[number];
             let Some(progress) = self.with(part, shared, |part, world| part.advance(world)) else { continue };
             let Some(head) = self.head.as_mut().filter(|head| !head.held) else { continue };
-            if head.acting().is_none_or(|command| command.part != part) {
+            let Some((command, _)) = head.acting().filter(|(_, command)| command.part == part) else {
                 continue;
-            }
+            };
             match progress {
                 Progress::Going => {}
                 Progress::Reached => {
@@ -283,7 +302,7 @@ impl Working {
                 }
                 Progress::Failed(error) => {
                     self.abandon(shared.next_ms());
-                    self.end(error, shared.next_ms());
+                    self.fail(command, error, shared.next_ms());
                 }
             }
         }
@@ -492,7 +511,7 @@ impl Working {
         }
         let see = self.see(items, desk);
         let is_jammed =
-            |head: &Head| head.acting().is_some_and(|command| self.faults.is_jammed(command.part, scan));
+            |head: &Head| head.acting().is_some_and(|(_, command)| self.faults.is_jammed(command.part, scan));
         self.head.as_ref().is_some_and(|head| head.is_under_way() && !head.held && !is_jammed(head))
             || self
                 .running()

@@ -23,7 +23,8 @@ pub fn alarms(line: &Line, recorded: &Recorded, signals: &[Signal], results: &Va
         let mut put = |scan: u64, text: String| alarms.push((scan, machine, text));
         match signal.source {
             Source::Input { machine, word: at } if errors[machine] == Some(at) => {
-                answers(word).for_each(|(scan, code)| put(scan, answer_text(code)));
+                let why = |scan: u64| reason(recorded, machine, scan * u64::from(line.scan_ms));
+                answers(word).for_each(|(scan, code)| put(scan, answer_text(code, why(scan))));
             }
             Source::RunPermit => {
                 for (scan, permit) in word.changes.iter().skip(1) {
@@ -91,9 +92,16 @@ fn answers(word: &Word) -> impl Iterator<Item = (u64, i64)> {
     word.changes.iter().filter(|(_, value)| *value != 0.0).map(|(scan, value)| (*scan, *value as i64))
 }
 
-fn answer_text(code: i64) -> String {
+/// Why the last command that ended in an error of reach by then did.
+fn reason(recorded: &Recorded, machine: usize, by_ms: u64) -> Option<&str> {
+    let of_machine =
+        recorded.report.missed.iter().filter(|missed| missed.machine == machine && missed.at_ms <= by_ms);
+    of_machine.last().map(|missed| missed.text.as_str())
+}
+
+fn answer_text(code: i64, why: Option<&str>) -> String {
     let meaning = match i32::try_from(code) {
-        Ok(error::UNREACHABLE) => "the goal is out of reach",
+        Ok(error::UNREACHABLE) => why.unwrap_or("the goal cannot be reached"),
         Ok(error::NO_PART) => "nothing was gripped",
         Ok(error::REFUSED) => "the device refused it",
         Ok(error::WITHDRAWN) => "it was withdrawn",

@@ -1,5 +1,6 @@
 //! The drives of an arm: its joints moving to a target of the tool.
 
+use super::missed::Missed;
 use super::motions::{Motions, Planned};
 use crate::kinematics::arm::{Joints, Limits};
 use crate::kinematics::facing::Facing;
@@ -55,12 +56,12 @@ enum Phase {
     Braking(Motion, Option<Target>),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Moved {
     Moving,
     Arrived,
     /// From where the motion before it came to rest the target cannot be reached.
-    Lost,
+    Lost(Missed),
 }
 
 impl Drive {
@@ -117,19 +118,18 @@ impl Drive {
         self.motions.arm().has_torso()
     }
 
-    /// Sets out for a target at `t`, in seconds; what moves still brakes first. `None` if no joints bring the
-    /// tool there.
-    pub fn start(&mut self, target: Target, t: f64) -> Option<()> {
+    /// Sets out for a target at `t`, in seconds; what moves still brakes first.
+    pub fn start(&mut self, target: Target, t: f64) -> Result<(), Missed> {
         if self.is_at_rest() {
             let planned = self.planned_to(target, t)?;
             self.set_out(target, planned);
-            return Some(());
+            return Ok(());
         }
         if self.target != Some(target) {
             self.planned_to(target, t)?;
         }
         self.brake(t, Some(target));
-        Some(())
+        Ok(())
     }
 
     fn set_out(&mut self, target: Target, planned: Planned) {
@@ -141,11 +141,11 @@ impl Drive {
     }
 
     /// From the present joints, which stand.
-    fn planned_to(&self, target: Target, t: f64) -> Option<Planned> {
+    fn planned_to(&self, target: Target, t: f64) -> Result<Planned, Missed> {
         if self.target == Some(target)
             && let Some(path) = &self.left
         {
-            return Some(self.motions.along(path.clone(), &self.limits, t));
+            return Ok(self.motions.along(path.clone(), &self.limits, t));
         }
         let directed = self.motions.arm().directed(&self.joints, self.direction);
         self.motions.planned([&self.joints, &directed], &target, &self.limits, t)
@@ -217,8 +217,10 @@ impl Drive {
                 let leads_on = matches!(self.target, Some(Target::Round(..))) && place < 1.0;
                 self.left = leads_on.then(|| motion.path().rest(place, &self.limits));
                 let Some(target) = next else { return Moved::Arrived };
-                let Some(planned) = self.planned_to(target, t) else { return Moved::Lost };
-                self.set_out(target, planned);
+                match self.planned_to(target, t) {
+                    Ok(planned) => self.set_out(target, planned),
+                    Err(missed) => return Moved::Lost(missed),
+                }
                 Moved::Moving
             }
         }

@@ -1,6 +1,7 @@
 //! The motions of an arm: what was asked for before is not computed again.
 
 use super::drive::Target;
+use super::missed::{Missed, Why};
 use crate::answers::Answers;
 use crate::collision::reach::{Ball, Chain, Radii};
 use crate::kinematics::arm::{Arm, Joints, Limits, MOST_JOINTS};
@@ -22,7 +23,7 @@ pub struct Motions {
     planner: Option<Planner>,
     /// How far the tool goes at most for a metre or a radian of each joint, m.
     radii: Radii,
-    known: Answers<Question, Option<Planned>>,
+    known: Answers<Question, Result<Planned, Missed>>,
     /// What other processes have planned.
     stored: Stored,
 }
@@ -142,7 +143,7 @@ impl Motions {
         let is_planned = |Question(words): &Question| words.last().is_some_and(|kind| PLANNED.contains(kind));
         let known = self.known.of_late(most, is_planned).into_iter();
         let mut paths: HashMap<_, _> = known
-            .map(|(question, planned)| (question, planned.map(|it| it.motion.path().knots()[1..].to_vec())))
+            .map(|(question, planned)| (question, planned.ok().map(|it| it.motion.path().knots()[1..].to_vec())))
             .collect();
         for (question, knots) in &self.stored.0 {
             if paths.len() < most && !paths.contains_key(question) {
@@ -156,7 +157,7 @@ impl Motions {
         &self.arm
     }
 
-    /// From rest at joints, begun at `begin`; none if no joints bring the tool there, or no path is free. A part on the
+    /// From rest at joints, begun at `begin`. A part on the
     /// tool gets the direction that it has at `directed`, the same joints but for the last one.
     pub fn planned(
         &self,
@@ -164,12 +165,12 @@ impl Motions {
         target: &Target,
         limits: &Limits,
         begin: f64,
-    ) -> Option<Planned> {
+    ) -> Result<Planned, Missed> {
         let question = Question::new([from, directed], target, limits);
         let stored = self.stored.0.get(&question);
         let planned = self.known.get(question, || {
             let motion = self.computed([from, directed], target, limits, stored)?;
-            Some(self.measured(motion))
+            Ok(self.measured(motion))
         });
         planned.map(|Planned { motion, tool }| Planned { motion: motion.begun(begin), tool })
     }
@@ -190,27 +191,52 @@ impl Motions {
         target: &Target,
         limits: &Limits,
         stored: Option<&Option<Vec<Joints>>>,
-    ) -> Option<Motion> {
-        let knots = match target {
-            Target::Place(goal) => self.arm.line_to(*goal, directed).ok()?.into_iter().map(Knot::new).collect(),
-            Target::Direct(goal) => vec![Knot::new(self.arm.solve(*goal, directed)?)],
-            Target::Facing(goal, facing) => {
-                self.arm.line_facing(*goal, *facing, directed).ok()?.into_iter().map(Knot::new).collect()
+    ) -> Result<Motion, Missed> {
+        let arm = &self.arm;
+        let knots = |joints: Vec<Joints>| joints.into_iter().map(Knot::new).collect();
+        let out_of_reach = |place: Point| Missed::out_of_reach(place, arm.margin(place));
+        let solve =
+            |place: Point, from: &Joints| arm.solve(place, from).ok_or_else(|| out_of_reach(place));
+        let knots: Vec<Knot> = match target {
+            Target::Place(goal) => {
+                let line = arm.line_to(*goal, directed);
+                knots(line.map_err(|why| Missed::new(*goal, arm.margin(*goal), why))?)
             }
-            Target::Turned(goal, turn) => vec![Knot::new(self.arm.solve_turned(*goal, *turn, directed)?)],
+            Target::Direct(goal) => vec![Knot::new(solve(*goal, directed)?)],
+            Target::Facing(goal, facing) => {
+                let line = arm.line_facing(*goal, *facing, directed);
+                knots(line.map_err(|why| Missed::new(*goal, arm.margin_facing(*goal, *facing), why))?)
+            }
+            Target::Turned(goal, turn) => {
+                let joints = arm.solve_turned(*goal, *turn, directed);
+                vec![Knot::new(joints.ok_or_else(|| out_of_reach(*goal))?)]
+            }
             Target::Past(via, goal) => {
-                let via = self.arm.solve(*via, directed)?;
-                vec![Knot::new(via), Knot::new(self.arm.solve(*goal, &via)?)]
+                let via = solve(*via, directed)?;
+                vec![Knot::new(via), Knot::new(solve(*goal, &via)?)]
             }
             Target::Round(transfer, load) => {
-                if let Some(knots) = stored {
-                    knots.as_ref()?.iter().copied().map(Knot::new).collect()
+                if let Some(Some(stored)) = stored {
+                    knots(stored.clone())
                 } else {
-                    let path = self.planner.as_ref()?.path([from, directed], *load, transfer, limits)?;
-                    return Some(Motion::on(path, limits, 0.0));
+                    let planner = self.planner.as_ref().filter(|_| stored.is_none());
+                    let path =
+                        planner.and_then(|planner| planner.path([from, directed], *load, transfer, limits));
+                    let path = path.ok_or_else(|| self.without_path(transfer))?;
+                    return Ok(Motion::on(path, limits, 0.0));
                 }
             }
         };
-        Some(Motion::past(*from, &knots, limits, 0.0))
+        Ok(Motion::past(*from, &knots, limits, 0.0))
+    }
+
+    /// The first of its places that is out of reach, else there is no path.
+    fn without_path(&self, transfer: &Transfer) -> Missed {
+        let beyond = |place: &Point| {
+            let margin = self.arm.margin(*place);
+            (margin.is_nan() || margin < 0.0).then(|| Missed::out_of_reach(*place, margin))
+        };
+        let Transfer { via, goal, .. } = transfer;
+        [via, goal].into_iter().find_map(beyond).unwrap_or(Missed { place: *goal, why: Why::NoPath })
     }
 }
