@@ -61,10 +61,11 @@ mod tests {
             (0.0, 0.39, FRAC_PI_2, true),
             (0.0, 0.41, FRAC_PI_2, false),
             (0.39, 0.39, FRAC_PI_2, true),
-            // Its sides are 0.1 m from its middle, the nearest corner (0.3, 0.1) is at 0.2/sqrt(2) from the line through it.
-            (0.44, -0.04, -FRAC_PI_4, true),
-            (0.36, 0.24, FRAC_PI_4, true),
-            (0.46, -0.06, FRAC_PI_4, false),
+            // From the corner (0.3, 0.1) its long side is half of its width away, then its short one half of its length.
+            (0.36, 0.16, -FRAC_PI_4, true),
+            (0.38, 0.18, -FRAC_PI_4, false),
+            (0.50, 0.30, FRAC_PI_4, true),
+            (0.52, 0.32, FRAC_PI_4, false),
         ] {
             assert_eq!(middle.overlaps(&at(x, y, turn)), overlaps, "{x} {y} {turn}");
             assert_eq!(at(x, y, turn).overlaps(&middle), overlaps, "{x} {y} {turn}");
