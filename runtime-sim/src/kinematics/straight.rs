@@ -6,13 +6,15 @@ use crate::point::Point;
 
 /// A tool that is not farther from a straight line is on it, and an axis that moves less stands, m or rad.
 const ALIGNED: f64 = 1e-6;
-/// On a straight line of the tool the joints change evenly for so many metres: it is off the line by less than 0.2 mm.
+/// On a straight line of the tool the joints change evenly for so many metres, or less.
 pub const LINE_STEP: f64 = 0.025;
 /// A longer line is not straight.
 const MOST_STEPS: f64 = 200.0;
 /// The joints of two places so near to one another differ by less, rad: else a step is halved.
 const NEAR_JOINTS: f64 = 0.5;
-/// A step that is halved so often is not halved again: the arm has turned over.
+/// In the middle of a step the tool is not farther off the line, m: else a step is halved.
+const OFF_LINE: f64 = 0.000_5;
+/// A step that is halved so often is not halved again: if the joints still differ, the arm has turned over.
 const MOST_HALVES: u32 = 6;
 
 /// Why the tool does not get to a place.
@@ -33,14 +35,17 @@ enum NoLine {
 }
 
 /// A number of steps, and the joints of the place after so many of them, near others.
-struct Line<S> {
+struct Line<'a, S> {
+    arm: &'a Arm,
+    /// Where it begins and ends.
+    ends: [Point; 2],
     steps: f64,
     /// The first joints, which have to stand.
     standing: usize,
     solve: S,
 }
 
-impl<S: Fn(f64, &Joints) -> Option<Joints>> Line<S> {
+impl<S: Fn(f64, &Joints) -> Option<Joints>> Line<'_, S> {
     fn joints(&self, from: &Joints) -> Result<Vec<Joints>, NoLine> {
         let mut all = vec![*from];
         for i in 1..=self.steps as u32 {
@@ -57,13 +62,22 @@ impl<S: Fn(f64, &Joints) -> Option<Joints>> Line<S> {
         if (0..self.standing).any(|j| (next[j] - last[j]).abs() >= ALIGNED) {
             return Err(NoLine::NotAsked);
         }
-        if next.iter().zip(last.iter()).all(|(a, b)| (a - b).abs() < NEAR_JOINTS) {
+        let is_near = next.iter().zip(last.iter()).all(|(a, b)| (a - b).abs() < NEAR_JOINTS);
+        if is_near && (halves == 0 || self.is_on_line(&last, &next, end - length / 2.0)) {
             all.push(next);
             return Ok(());
         }
         let (half, halves) = (length / 2.0, halves.checked_sub(1).ok_or(NoLine::Breaks)?);
         self.step(end - half, half, halves, all)?;
         self.step(end, half, halves, all)
+    }
+
+    /// Whether the tool is on the line half of the way between two sets of joints, after so many steps.
+    fn is_on_line(&self, last: &Joints, next: &Joints, middle: f64) -> bool {
+        let [begin, end] = self.ends;
+        let there = begin + (end - begin).scaled(middle / self.steps);
+        let half = last.map(|i, value| (value + next[i]) / 2.0);
+        (self.arm.tool(&half) - there).length() < OFF_LINE
     }
 }
 
@@ -106,7 +120,7 @@ impl Arm {
         };
         let steps = steps(way.length()).filter(|_| is_along).ok_or(NoLine::NotAsked)?;
         let solve = |i: f64, last: &Joints| self.solve_near(tool - way.scaled(1.0 - i / steps), facing, last);
-        Line { steps, standing, solve }.joints(from)
+        Line { arm: self, ends: [start.position, tool], steps, standing, solve }.joints(from)
     }
 
     fn vertical(&self, tool: Point, from: &Joints) -> Result<Vec<Joints>, NoLine> {
@@ -129,7 +143,7 @@ impl Arm {
             let z = if steps > 1.0 { start.z + (tool.z - start.z) * i / steps } else { tool.z };
             self.solve_near(Point { z, ..tool }, Facing::Down, last)
         };
-        Line { steps, standing, solve }.joints(from)
+        Line { arm: self, ends: [start, tool], steps, standing, solve }.joints(from)
     }
 }
 
