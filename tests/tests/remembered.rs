@@ -22,10 +22,13 @@ fn run(project: &Project, memory: &mut Memory) -> Report {
     run_again(&project.plant, &mut executor, Stepping::Events, memory, &mut |_| {}).expect("a run")
 }
 
+/// A question, and the joints on the path.
+type Path = (Vec<u64>, Vec<Vec<u64>>);
+
 /// What stands in stored words: the paths of each machine, and the answers about contact, in any order.
 #[derive(Debug, PartialEq)]
 struct Found {
-    paths: Vec<BTreeSet<(Vec<u64>, Vec<Vec<u64>>)>>,
+    paths: Vec<BTreeSet<Path>>,
     answers: [BTreeSet<[u64; 3]>; 2],
 }
 

@@ -94,9 +94,9 @@ fn answers(word: &Word) -> impl Iterator<Item = (u64, i64)> {
 
 /// Why the last command that ended in an error of reach by then did.
 fn reason(recorded: &Recorded, machine: usize, by_ms: u64) -> Option<&str> {
-    let of_machine =
+    let mut of_machine =
         recorded.report.missed.iter().filter(|missed| missed.machine == machine && missed.at_ms <= by_ms);
-    of_machine.last().map(|missed| missed.text.as_str())
+    of_machine.next_back().map(|missed| missed.text.as_str())
 }
 
 fn answer_text(code: i64, why: Option<&str>) -> String {
