@@ -108,7 +108,7 @@ impl Machine {
         if let (Some(chain), Some(number)) = (self.chain(), last("chain")) {
             let unsolved = "there is no inverse kinematics for its chain on these axes";
             let arm = self.arm().ok_or_else(|| Misfit::of(number, unsolved))?;
-            if arm.solve(chain.rest, &arm.start()).is_none() {
+            if arm.at_rest(chain.rest).is_none() {
                 return Err(Misfit::of(number, "its tool cannot reach its own rest position"));
             }
         }

@@ -21,6 +21,7 @@ pub mod sdf;
 pub mod searched;
 pub mod small_lines;
 pub mod st;
+pub mod stepped;
 pub mod trace;
 pub mod wired;
 pub mod words;
@@ -90,6 +91,15 @@ impl Texts {
 
     pub fn set(mut self, setting: &str) -> Self {
         self.settings.push(setting.into());
+        self
+    }
+
+    /// With texts of the first specification replaced.
+    pub fn replaced(mut self, changes: &[(&str, &str)]) -> Self {
+        for (from, to) in changes {
+            assert!(self.specs[0].contains(from), "{from}");
+            self.specs[0] = self.specs[0].replace(from, to);
+        }
         self
     }
 

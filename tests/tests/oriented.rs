@@ -1,7 +1,6 @@
 //! Tools that are turned about the vertical: which turns an arm reaches, and a pallet with layers across.
 
-use autogen::executor::Executor;
-use autogen_tests::{Texts, machines, plain, side_by_side};
+use autogen_tests::{Texts, machines, plain, side_by_side, stepped};
 use runtime_sim::carrier::Carrier;
 use runtime_sim::frame::Frame;
 use runtime_sim::kinematics::arm::Joints;
@@ -13,11 +12,8 @@ use runtime_sim::kinematics::riding::RidingArm;
 use runtime_sim::kinematics::scara::{Arms, Scara};
 use runtime_sim::kinematics::solver::Solver;
 use runtime_sim::kinematics::ur::Lengths;
-use runtime_sim::memory::Memory;
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::random::Random;
-use runtime_sim::report::Report;
-use runtime_sim::run::{Seen, Stepping, run_again};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -186,31 +182,11 @@ fn what_is_no_number_is_no_turn() {
 
 /// The scene with one text of its types replaced.
 fn scene(changes: &[(&str, &str)]) -> Texts {
-    let mut texts = side_by_side("scenes/layers");
-    for (from, to) in changes {
-        assert!(texts.specs[0].contains(from), "{from}");
-        texts.specs[0] = texts.specs[0].replace(from, to);
-    }
-    texts
-}
-
-/// The run, which is the same however it is stepped.
-fn run(texts: &Texts, mut observer: impl FnMut(&Seen)) -> Report {
-    let project = texts.project();
-    let execute = |stepping, see: &mut dyn FnMut(&Seen)| {
-        let mut executor = Executor::new(&project.system);
-        run_again(&project.plant, &mut executor, stepping, &mut Memory::default(), see)
-            .expect("a line that can be run")
-    };
-    let every = execute(Stepping::EveryScan, &mut observer);
-    for stepping in [Stepping::Events, Stepping::Checked] {
-        assert_eq!(execute(stepping, &mut |_| {}), every, "{stepping:?}");
-    }
-    every
+    side_by_side("scenes/layers").replaced(changes)
 }
 
 fn reason(texts: &Texts) -> String {
-    run(texts, |_| {}).reason.to_string()
+    stepped::report(texts, |_| {}).reason.to_string()
 }
 
 /// With an arm of the device replaced: its text from `part robot` to the gripper.
@@ -238,7 +214,7 @@ fn lies_as_the_pattern_says(texts: &Texts, pose: Point, yaw: f64) {
     };
     let mut gripped: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
     let mut lie: BTreeMap<usize, (Point, f64)> = BTreeMap::new();
-    let report = run(texts, |seen| {
+    let report = stepped::report(texts, |seen| {
         let plant = seen.plant;
         for item in 0..plant.items().count() {
             let Some(place) = plant.place(item) else { continue };
@@ -295,7 +271,7 @@ fn a_turn_that_the_last_joint_does_not_reach_ends_the_command() {
         ("lowest: [-180, -100, -60, -200, -120, -400]", "lowest: [-180, -100, -60, -200, -120, -80]"),
         ("highest: [180, 110, 65, 200, 120, 400]", "highest: [180, 110, 65, 200, 120, 80]"),
     ];
-    let report = run(&scene(&less), |_| {});
+    let report = stepped::report(&scene(&less), |_| {});
     assert!(!report.finished, "{}", report.reason);
 }
 

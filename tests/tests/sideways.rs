@@ -1,39 +1,16 @@
 //! Tools that come from the side: the turning cell of the examples, whose arm takes blanks from above and puts them into a
 //! chuck.
 
-use autogen::executor::Executor;
-use autogen_tests::{Texts, lathe_on_a_rail, plain, side_by_side};
-use runtime_sim::memory::Memory;
-use runtime_sim::report::Report;
-use runtime_sim::run::{Seen, Stepping, run_again};
+use autogen_tests::{Texts, lathe_on_a_rail, plain, side_by_side, stepped};
+use runtime_sim::run::Seen;
 
 /// The cell with one text of its types replaced.
 fn cell(changes: &[(&str, &str)]) -> Texts {
-    let mut texts = side_by_side("lathe/lathe");
-    for (from, to) in changes {
-        assert!(texts.specs[0].contains(from), "{from}");
-        texts.specs[0] = texts.specs[0].replace(from, to);
-    }
-    texts
-}
-
-/// The run, which is the same however it is stepped.
-fn run(texts: &Texts, mut observer: impl FnMut(&Seen)) -> Report {
-    let project = texts.project();
-    let execute = |stepping, see: &mut dyn FnMut(&Seen)| {
-        let mut executor = Executor::new(&project.system);
-        run_again(&project.plant, &mut executor, stepping, &mut Memory::default(), see)
-            .expect("a line that can be run")
-    };
-    let every = execute(Stepping::EveryScan, &mut observer);
-    for stepping in [Stepping::Events, Stepping::Checked] {
-        assert_eq!(execute(stepping, &mut |_| {}), every, "{stepping:?}");
-    }
-    every
+    side_by_side("lathe/lathe").replaced(changes)
 }
 
 fn reason(changes: &[(&str, &str)]) -> String {
-    run(&cell(changes), |_| {}).reason.to_string()
+    stepped::report(&cell(changes), |_| {}).reason.to_string()
 }
 
 const LATHE: usize = 2;
@@ -54,7 +31,7 @@ fn a_chuck_is_filled_and_emptied_from_the_side() {
     for changes in [&[][..], &ABB] {
         let mut in_chuck = 0;
         let mut off: f64 = 0.0;
-        let report = run(&cell(changes), |seen: &Seen| {
+        let report = stepped::report(&cell(changes), |seen: &Seen| {
             let plant = seen.plant;
             for item in plant.items().borne_by(LATHE) {
                 let (place, upper) =
@@ -86,7 +63,7 @@ fn an_arm_on_a_rail_tends_the_lathe() {
     for arm in [None, Some(ABB[0].1)] {
         let texts = lathe_on_a_rail(arm);
         let mut goes = [f64::INFINITY, f64::NEG_INFINITY];
-        let report = run(&texts, |seen: &Seen| {
+        let report = stepped::report(&texts, |seen: &Seen| {
             let tool = seen.plant.position(ARM).expect("a tool");
             goes = [goes[0].min(tool.y), goes[1].max(tool.y)];
         });
@@ -182,7 +159,7 @@ fn a_blank_is_gripped_below_its_upper_side() {
     let scenario = texts.scenario.as_mut().expect("a scenario");
     *scenario = scenario.replace("\"height\": 0.03", "\"height\": 0.03, \"grasp\": 0.02");
     let mut in_chuck = 0;
-    let report = run(&texts, |seen: &Seen| {
+    let report = stepped::report(&texts, |seen: &Seen| {
         for item in seen.plant.items().borne_by(LATHE) {
             let place = seen.plant.place(*item).expect("a place");
             assert!((place.x - 1.15).abs() < 1e-6, "{place:?}");

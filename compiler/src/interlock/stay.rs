@@ -313,7 +313,7 @@ pub(super) fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>>
             let points = of_type(Scalar::Point);
             let bound = Bound::default();
             let regions = Regions::new(given, instance, &bound, transition);
-            let ways: Vec<Vec<(&Expr, Facing)>> = match part.schema().actions[command.action].name {
+            let turned: Vec<Vec<(&Expr, Facing)>> = match part.schema().actions[command.action].name {
                 "facing" => {
                     let points: Vec<&Expr> = points.collect();
                     let [goal, direction] = points[..] else { continue };
@@ -333,7 +333,7 @@ pub(super) fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>>
                 ExprKind::Read(Place::Local { local, .. }) => of_tool.contains(local),
                 kind => is_tool(automaton, machine, kind),
             });
-            for goals in ways {
+            for goals in turned {
                 if !goals.is_empty() && !goals.iter().any(|(goal, _)| asks_tool.expression(goal)) {
                     let mut named = BTreeSet::new();
                     goals.iter().for_each(|(goal, _)| names(automaton, goal, &mut named));

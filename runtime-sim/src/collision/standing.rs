@@ -24,8 +24,8 @@ struct Thing<'a> {
     bounds: BoundingBox,
 }
 
-/// Of all bodies at the start, arms at their rest and vehicles at their first stops; two obstacles may overlap, and so may those
-/// that the layout allows to touch. The first pair of solids of each two, and `most` of them at most.
+/// Of all bodies at the start, arms at their rest and vehicles at their first stops; two obstacles may overlap, and so
+/// may those that the layout allows to touch. The first pair of solids of each two, and `most` of them at most.
 pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
     let machines = line.machines.iter().map(|machine| {
         let start = machine.start().unwrap_or_default().pose();
@@ -57,7 +57,7 @@ pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
 /// Of the links of an arm when a run begins.
 fn at_rest(machine: &Machine) -> Option<Frames> {
     let (arm, chain) = (machine.arm()?, machine.chain()?);
-    Some(arm.frames(&arm.solve(chain.rest, &arm.start())?))
+    Some(arm.frames(&arm.at_rest(chain.rest)?))
 }
 
 /// What is on a cylinder or a positioner when a run begins.

@@ -375,6 +375,11 @@ impl Arm {
         self.solver().start()
     }
 
+    /// The joints with which a run begins, whose tool is at `rest`; none out of reach.
+    pub fn at_rest(&self, rest: Point) -> Option<Joints> {
+        self.solve(rest, &self.start())
+    }
+
     pub fn limits(&self) -> Limits {
         self.limits
     }

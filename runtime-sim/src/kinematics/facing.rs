@@ -40,7 +40,7 @@ impl Facing {
     }
 
     /// What `x` of [`Self::pose`] may be.
-    pub(super) fn ways(self) -> &'static [f64] {
+    pub(super) fn signs(self) -> &'static [f64] {
         match self {
             Self::Oriented { .. } => &[1.0],
             Self::Down | Self::Level { .. } => &[1.0, -1.0],
@@ -111,7 +111,7 @@ mod tests {
         let level = [Facing::Level { x: 0.6, y: 0.8 }, Facing::Level { x: -1.0, y: 0.0 }];
         let down = [Facing::Down, Facing::Oriented { x: 0.6, y: 0.8 }, Facing::Oriented { x: -1.0, y: 0.0 }];
         for facing in level.into_iter().chain(down) {
-            for &x in facing.ways() {
+            for &x in facing.signs() {
                 let pose = facing.pose(Point::default(), x);
                 assert_eq!(pose.axis(2), facing.direction());
                 let [a, b, c] = [0, 1, 2].map(|i| pose.axis(i));

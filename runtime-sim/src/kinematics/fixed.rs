@@ -190,7 +190,7 @@ impl FixedArm {
 
     /// All joints that bring the tool, pointing there, to a place in the frame of the base, near `from`.
     fn candidates(&self, seen: Point, facing: Facing, from: &Angles) -> impl Iterator<Item = Candidate> {
-        let solutions = facing.ways().iter().flat_map(move |&x| {
+        let solutions = facing.signs().iter().flat_map(move |&x| {
             let tool = self.pointing(seen, facing, x);
             match &self.geometry {
                 Geometry::UniversalRobots(lengths) => {

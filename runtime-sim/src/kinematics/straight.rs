@@ -134,11 +134,9 @@ impl Arm {
             plain
                 .is_some_and(|plain| plain.iter().zip(from.iter()).any(|(a, b)| (a - b).abs() >= NEAR_JOINTS))
         };
-        if points_down && is_turned() {
-            return Err(NoLine::NotAsked);
-        }
         let is_over = points_down && (tool.x - start.x).abs() < ALIGNED && (tool.y - start.y).abs() < ALIGNED;
-        let steps = steps((tool.z - start.z).abs()).filter(|_| is_over).ok_or(NoLine::NotAsked)?;
+        let steps =
+            steps((tool.z - start.z).abs()).filter(|_| is_over && !is_turned()).ok_or(NoLine::NotAsked)?;
         let solve = |i: f64, last: &Joints| {
             let z = if steps > 1.0 { start.z + (tool.z - start.z) * i / steps } else { tool.z };
             self.solve_near(Point { z, ..tool }, Facing::Down, last)

@@ -357,7 +357,7 @@ fn axis(at: Point, motion: Motion) -> crate::part::axis::Axis {
     }
 }
 
-fn chain() -> Chain {
+pub(super) fn chain() -> Chain {
     let joint = Joint {
         name: String::new(),
         link: String::new(),

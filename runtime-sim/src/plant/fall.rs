@@ -19,8 +19,8 @@ pub struct Falling {
     pub turn: f64,
 }
 
-/// The highest surface under an item, or what holds it; the top of an obstacle or the floor, and where the item then rests. It stays there however
-/// deep it fell. Items lie on one another only where a place says so.
+/// The highest surface under an item, or what holds it; the top of an obstacle or the floor, and where the item then
+/// rests. It stays there however deep it fell. Items lie on one another only where a place says so.
 pub fn fall(plant: &Plant, falling: &Falling, ms: f64) -> (Carrier, Point) {
     let point = falling.point;
     let mut lands: Option<(f64, Carrier)> = None;

@@ -1,35 +1,18 @@
 use super::super::fixed;
 use super::super::random::Random;
+use super::super::tests;
 use super::super::ur::Lengths;
 use super::*;
 use crate::frame::Frame;
-use crate::part::chain::{Chain, Geometry, Joint};
+use crate::part::chain::{Chain, Geometry};
+use std::f64::consts::FRAC_PI_2;
 
 const UR10E: Lengths =
     Lengths { d1: 0.1807, a2: -0.6127, a3: -0.57155, d4: 0.17415, d5: 0.11985, tool: 0.11655 + 0.15 };
 
 fn arm(base: Frame, ranges: Option<[[f64; 2]; fixed::JOINTS]>) -> Arm {
-    let joint = Joint {
-        name: String::new(),
-        link: String::new(),
-        speed: 1.0,
-        mass: 1.0,
-        effort: 1.0,
-        damping: 0.0,
-        friction: 0.0,
-    };
-    let chain = Chain {
-        on: None,
-        base: Some(base),
-        mount: Frame::default(),
-        mounting: fixed::Mounting::Upright,
-        geometry: Geometry::Fixed(Box::new(fixed::Geometry::UniversalRobots(UR10E)), ranges.map(Box::new)),
-        rest: Point::default(),
-        joints: vec![joint; fixed::JOINTS],
-        acceleration: 1.0,
-        envelope: None,
-        clearances: Vec::new(),
-    };
+    let geometry = Geometry::Fixed(Box::new(fixed::Geometry::UniversalRobots(UR10E)), ranges.map(Box::new));
+    let chain = Chain { on: None, base: Some(base), geometry, ..tests::chain() };
     Arm::new(&[], &chain).expect("an arm")
 }
 
@@ -114,4 +97,16 @@ fn a_tool_that_turns_goes_at_once() {
     let place = Point::new(0.6, 0.2, 0.5);
     let level = arm.solve_facing(place, Facing::Level { x: 1.0, y: 0.0 }, &arm.start()).expect("in reach");
     assert_eq!(arm.line_to(place.up(-0.2), &level).expect("in reach").len(), 1);
+}
+
+/// A tool with a turn of its own gives it up with a line that has none, so it does not go straight.
+#[test]
+fn a_tool_that_is_turned_goes_at_once() {
+    let arm = arm(Frame::default(), None);
+    let [high, low] = [0.6, 0.3].map(|z| Point::new(0.7, 0.2, z));
+    let across = Facing::oriented(FRAC_PI_2).expect("a number");
+    let from = arm.solve_facing(high, across, &arm.start()).expect("in reach");
+    assert_eq!(arm.line_to(low, &from).expect("in reach").len(), 1);
+    let knots = arm.line_facing(low, across, &from).expect("a line");
+    assert!(knots.len() > 1 && off_line(&arm, &from, &knots, low) < 1e-3);
 }

@@ -68,7 +68,7 @@ impl Drive {
     /// At rest with the tool at this place; `None` if it is out of reach.
     pub fn new(motions: Arc<Motions>, rest: Point) -> Option<Self> {
         let arm = motions.arm();
-        let joints = arm.solve(rest, &arm.start())?;
+        let joints = arm.at_rest(rest)?;
         let (limits, tool, direction) = (arm.limits(), arm.tool_pose(&joints), arm.direction(&joints));
         Some(Self {
             motions,
