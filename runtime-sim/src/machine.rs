@@ -122,6 +122,14 @@ impl Machine {
         })
     }
 
+    /// Those on lanes, by the numbers of their parts.
+    pub fn processes_on_lanes(&self) -> impl Iterator<Item = (usize, &Process)> {
+        self.parts.iter().enumerate().filter_map(|(number, part)| match &part.primitive {
+            Primitive::Process(process) if process.at.is_some() => Some((number, process)),
+            _ => None,
+        })
+    }
+
     /// Of each word of its inputs, whether it changes while something moves. What a person sets does not.
     pub fn analogue_inputs(&self, kinds: usize) -> Vec<bool> {
         let is_analogue = |source: Source| match source {

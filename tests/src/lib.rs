@@ -94,11 +94,12 @@ impl Texts {
         self
     }
 
-    /// With texts of the first specification replaced.
+    /// With texts of the first specification or of the scenario replaced.
     pub fn replaced(mut self, changes: &[(&str, &str)]) -> Self {
         for (from, to) in changes {
-            assert!(self.specs[0].contains(from), "{from}");
-            self.specs[0] = self.specs[0].replace(from, to);
+            let mut texts = self.specs.iter_mut().take(1).chain(&mut self.scenario);
+            let text = texts.find(|text| text.contains(from)).expect(from);
+            *text = text.replace(from, to);
         }
         self
     }

@@ -41,6 +41,7 @@ mod over_places;
 mod plcopen;
 mod postponed;
 mod processes;
+mod processes_on_lanes;
 mod remembered;
 mod replaced;
 mod replays;

@@ -112,9 +112,10 @@ impl Uses {
                 "keeps its first value: nothing else is written to it",
                 "write to it where it has to change; if it never has to, read its value instead, as it stands or by a `define`, and remove it",
             ),
-            (false, true) => {
-                ("is never read", "read it where it matters, or remove it and what is written to it")
-            }
+            (false, true) => (
+                "is never read",
+                "read it where it matters, or remove it and what is written to it; what people should see is an output on a `display`",
+            ),
             (false, false) => ("is never used", "use it, or remove it"),
         };
         let message = format!("the {what} `{name}` {wrong}");

@@ -12,6 +12,7 @@ use by_hand::ByHand;
 use missing::{Asked, Missing};
 use runtime_sim::line::{self, Goal, Line};
 use runtime_sim::part::Primitive;
+use runtime_sim::part::process::Process;
 use runtime_sim::plant::Transfer;
 use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};
@@ -190,13 +191,12 @@ fn reached(
         if !reached.insert((spot, kind)) {
             continue;
         }
-        let machine = match spot {
+        match spot {
             Spot::Lane(machine, part) => {
                 let next = leads_to.get(&(machine, part)).into_iter().flatten();
                 let next = next.filter(|transfer| transfer.kinds.contains(&kind));
                 open.extend(next.map(|transfer| (onto(transfer.to), kind)));
                 open.push((Spot::Machine(machine), kind));
-                machine
             }
             Spot::Machine(machine) => {
                 for &to in &hands_to[machine] {
@@ -206,17 +206,30 @@ fn reached(
                 if has_grip(line, machine) {
                     open.extend(lanes(machine).map(|lane| (lane, kind)));
                 }
-                machine
             }
-        };
-        open.extend(made_of(line, machine, kind).map(|made| (spot, made)));
+        }
+        open.extend(made_at(line, spot, kind).map(|made| (spot, made)));
     }
     reached
 }
 
-/// The kinds into which a machine makes one.
-fn made_of(line: &Line, machine: usize, kind: usize) -> impl Iterator<Item = usize> {
-    let made = line.machines[machine].processes().flat_map(|process| process.made());
+/// The kinds that one becomes there: on a lane by what works on it, elsewhere on a machine by what works at its places.
+fn made_at(line: &Line, spot: Spot, kind: usize) -> impl Iterator<Item = usize> {
+    let (Spot::Lane(machine, _) | Spot::Machine(machine)) = spot;
+    let is_here = move |process: &&Process| match spot {
+        Spot::Lane(_, lane) => process.at.is_some() && process.on == lane,
+        Spot::Machine(_) => process.at.is_none(),
+    };
+    made_by(line, line.machines[machine].processes().filter(is_here), kind)
+}
+
+/// The kinds that one becomes by these processes.
+fn made_by<'a>(
+    line: &'a Line,
+    processes: impl Iterator<Item = &'a Process>,
+    kind: usize,
+) -> impl Iterator<Item = usize> {
+    let made = processes.flat_map(Process::made);
     let made = made.filter(move |[from, _]| *from == line.kinds[kind].name);
     made.filter_map(|[_, to]| line.kinds.iter().position(|kind| kind.name == to))
 }

@@ -2,7 +2,8 @@
 
 use super::setting::{self, Setting};
 use super::{
-    Project, Verdict, bind, collected, complete, device_key, kinds, lonely, overlap, plant, role, short,
+    Project, Verdict, bind, collected, complete, device_key, kinds, lonely, overlap, plant, resized, role,
+    short,
 };
 use crate::check::{self, Checked};
 use crate::device::panel;
@@ -281,6 +282,7 @@ impl Parts {
         let visits = interlock::visits::of_all(&system, &plant);
         plant.machines.iter_mut().zip(visits).for_each(|(machine, visits)| machine.visits = visits);
         found.diagnostics.extend(overlap::overlaps(&layout, &plant));
+        found.diagnostics.extend(resized::items(&line, &plant));
         let transfers = transfers(&plant);
         found.diagnostics.extend(collected::out_of_reach(&scenario, &layout, &plant, &edges, &transfers));
         let comes = collected::comes_onto(&plant, &edges, &transfers);

@@ -13,6 +13,7 @@ mod modes;
 mod overlap;
 mod parameter;
 mod plant;
+mod resized;
 mod restart;
 mod role;
 mod setting;

@@ -2,6 +2,7 @@
 
 use super::{Machine, Misfit, ROUNDED};
 use crate::part::lane::{CentreLine, Lane};
+use crate::part::process::Process;
 use crate::part::stroke::Strokes;
 use crate::part::{Part, Primitive};
 use crate::point::Point;
@@ -44,6 +45,25 @@ impl Machine {
             }
             Primitive::Pusher(p) => {
                 self.check_branch(index, &Branch { lane: p.lane, at: p.at, onto: p.onto })
+            }
+            Primitive::Process(process) => self.check_process(&part.name, process).map_err(of_part),
+            _ => Ok(()),
+        }
+    }
+
+    /// Items on a lane have their place by `at`, and lie side by side.
+    fn check_process(&self, name: &str, process: &Process) -> Result<(), String> {
+        let on = &self.parts[process.on].name;
+        match (self.lane_of(process.on), process.at) {
+            (None, Some(_)) => Err(format!("{name} has `at`, which is for a lane, and {on} is a place")),
+            (None, None) if process.moving => {
+                Err(format!("{name} has `moving`, which is for a lane, and {on} is a place"))
+            }
+            (Some(_), None) => {
+                Err(format!("{name} has no `at`: {on} is a lane, and {name} is at a place of it"))
+            }
+            (Some(_), Some(_)) if process.frees || !process.joins.is_empty() => {
+                Err(format!("{name} joins or frees items, which lie at a place together, and {on} is a lane"))
             }
             _ => Ok(()),
         }
@@ -90,6 +110,7 @@ impl Machine {
             Primitive::Pusher(pusher) => (pusher.lane, pusher.at, "beginning"),
             Primitive::Source(source) => (source.lane, source.inset, "beginning"),
             Primitive::Sink(sink) => (sink.lane, sink.inset, "end"),
+            Primitive::Process(Process { on, at: Some(at), .. }) => (*on, *at, "beginning"),
             _ => return Ok(()),
         };
         let Some(lane) = self.lane_of(lane) else { return Ok(()) };

@@ -62,8 +62,8 @@ impl Crossing {
         Self { beam: beam.clone(), is_seen: kinds.iter().map(is_seen).collect() }
     }
 
-    /// Kinds of what is in the beam.
-    pub fn seen(&self, see: &See) -> impl Iterator<Item = usize> {
+    /// What is in the beam, the foremost first.
+    pub fn items(&self, see: &See) -> impl Iterator<Item = usize> {
         let moving = see.lane(self.beam.lane);
         let riders = moving.into_iter().flat_map(|moving| {
             let beam = moving.lane().centre_line.begin() - self.beam.at + AT_ONCE;
@@ -71,8 +71,13 @@ impl Crossing {
             places.filter(move |(rider, place)| place - rider.half <= beam && place + rider.half > beam)
         });
         let items = see.items;
-        let kinds = riders.map(move |(rider, _)| items[rider.item].kind);
-        kinds.filter(|kind| self.is_seen[*kind])
+        riders.map(|(rider, _)| rider.item).filter(move |item| self.is_seen[items[*item].kind])
+    }
+
+    /// Kinds of what is in the beam.
+    pub fn seen(&self, see: &See) -> impl Iterator<Item = usize> {
+        let items = see.items;
+        self.items(see).map(move |item| items[item].kind)
     }
 }
 

@@ -140,6 +140,7 @@ primitives! {
     camera::Camera,
     chain::Chain,
     cylinder::Cylinder,
+    display::Display,
     diverter::Diverter,
     gauge::Gauge,
     grip::Grip,
@@ -211,6 +212,7 @@ impl Part {
             | Primitive::Body(_)
             | Primitive::Button(_)
             | Primitive::Camera(_)
+            | Primitive::Display(_)
             | Primitive::Gauge(_)
             | Primitive::Lamp(_)
             | Primitive::Material(_)

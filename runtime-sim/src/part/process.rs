@@ -1,9 +1,10 @@
-//! What takes its time with an item at a place: milling, welding, testing.
+//! What takes its time with an item at a place or on a lane: milling, welding, testing.
 
 mod distribution;
 
 use distribution::{Distribution, TIMES, Times};
 
+use super::beam::{Beam, Crossing};
 use super::cylinder::End;
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Level, Primitive, Progress, Running, Schema, See, Signal, Start, World, milliseconds};
@@ -24,9 +25,11 @@ pub const SCHEMA: Schema = Schema {
     levels: &[Level { name: "start", ty: PortType::Bool }],
     ..Schema::new(
         "process",
-        "Works on the item at a place (an item on a lane is at none: stop it there, and let the automaton wait with `when after T`) after a rising edge of `start`, for a time that is fixed or drawn. `ended` stays true until the next start. A start without an item, or without what it needs, and an item that is taken away before the end, end the run: on the machine it would be a crash.",
+        "Works on the item at a place, or at a place of a lane, after a rising edge of `start`, for a time that is fixed or drawn. `ended` stays true until the next start. A start without an item, or without what it needs, and an item that is taken away before the end, end the run: on the machine it would be a crash. On a lane it works on the foremost item that is over or under `at`, from its front edge to its rear edge. If that item moves before the end, the run ends; with `moving` it may, as under a printer, as long as it stays there.",
         &[
-            Setting::new("on", Form::Part(&["place"]), "", "the place of the item"),
+            Setting::new("on", Form::Part(&["place", "lane"]), "", "the place of the item, or the lane on which it lies"),
+            Setting::new("at", Form::Number, "m", "on a lane: from its beginning").optional(),
+            Setting::new("moving", Form::Truth, "", "on a lane: the item may move meanwhile").optional(),
             Setting::new("time", Form::Times, "ms", "duration; the likeliest of a triangular distribution, the mean of a normal one").optional(),
             Setting::new("shortest", Form::Times, "ms", "no time is shorter").optional(),
             Setting::new("longest", Form::Times, "ms", "no time is longer").optional(),
@@ -58,7 +61,12 @@ pub const SCHEMA: Schema = Schema {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Process {
-    pub place: usize,
+    /// A place or a lane.
+    pub on: usize,
+    /// On a lane, from its beginning, m.
+    pub at: Option<f64>,
+    /// On a lane the item may move during a cycle.
+    pub moving: bool,
     /// Names of kinds; empty for all kinds, with one time.
     pub kinds: Vec<String>,
     /// One, or one for each of `kinds`.
@@ -168,7 +176,9 @@ impl Described for Process {
             return Err(format!("the setting kinds names {} twice", twice.1));
         }
         Ok(Self {
-            place: settings.part("on")?,
+            on: settings.part("on")?,
+            at: settings.optional("at", Settings::number)?,
+            moving: settings.optional("moving", Settings::truth)?.unwrap_or(false),
             times: times(settings, &kinds)?,
             kinds,
             needs_in: settings.optional("needs_in", Settings::part)?,
@@ -190,8 +200,13 @@ impl Described for Process {
         let need = |part: Option<usize>, end: End| part.map(|part| (part, end, parts[part].name.clone()));
         let needs = [need(self.needs_in, End::In), need(self.needs_out, End::Out)];
         cycle.needs = needs.into_iter().flatten().collect();
-        if let Primitive::Place(place) = &parts[self.place].primitive {
-            cycle.slots = place.slots.clone();
+        match (&parts[self.on].primitive, self.at) {
+            (Primitive::Place(place), _) => cycle.slots = place.slots.clone(),
+            (_, Some(at)) => {
+                let beam = Beam { lane: self.on, at, over: 0.0, only: None };
+                cycle.crossing = Some(Crossing::new(&beam, &start.line.kinds));
+            }
+            _ => {}
         }
         Ok(Some(Box::new(cycle)))
     }
@@ -213,8 +228,10 @@ pub struct Cycle {
     joins: Vec<Option<usize>>,
     /// Their names.
     kinds: Vec<String>,
-    /// Of the place.
+    /// Of the place; empty on a lane.
     slots: Vec<Point>,
+    /// On a lane, what is at its place there.
+    crossing: Option<Crossing>,
     seed: u64,
     /// Of the names of its machine and of itself.
     place: [u64; 2],
@@ -255,6 +272,7 @@ impl Cycle {
             joins: process.joins.iter().map(number).collect(),
             kinds: kinds.iter().map(|kind| kind.name.clone()).collect(),
             slots: Vec::new(),
+            crossing: None,
             seed,
             place,
             is_on: false,
@@ -296,6 +314,28 @@ impl Cycle {
         self.becomes[kind]
     }
 
+    /// The item that is there, the first one of several.
+    fn item(&self, see: &See) -> Option<usize> {
+        match &self.crossing {
+            Some(crossing) => crossing.items(see).next(),
+            None => see.borne_by(self.process.on).next(),
+        }
+    }
+
+    fn is_there(&self, item: usize, see: &See) -> bool {
+        match &self.crossing {
+            Some(crossing) => crossing.items(see).any(|there| there == item),
+            None => see.borne_by(self.process.on).any(|there| there == item),
+        }
+    }
+
+    /// Whether an item moves that should not.
+    fn slides(&self, item: usize, see: &See) -> bool {
+        let lane = see.lane(self.process.on).filter(|_| !self.process.moving);
+        let motion = lane.and_then(|lane| Some((lane, lane.motion(item, &see.items[item].carrier)?)));
+        motion.is_some_and(|(lane, motion)| lane.speed_of(motion) > 0.0)
+    }
+
     /// The items that are joined to one, in the order of their kinds; the name of a kind of which none is there.
     fn joined(&self, item: usize, see: &See) -> Result<Vec<usize>, &str> {
         let mut joined = Vec::new();
@@ -303,14 +343,14 @@ impl Cycle {
             let is_wanted = |other: &usize| {
                 *other != item && !joined.contains(other) && Some(see.items[*other].kind) == *kind
             };
-            joined.push(see.borne_by(self.process.place).find(is_wanted).ok_or(name.as_str())?);
+            joined.push(see.borne_by(self.process.on).find(is_wanted).ok_or(name.as_str())?);
         }
         Ok(joined)
     }
 
     /// The parts of an item come to lie on free slots; the kind of one for which there is none.
     fn free(&self, item: usize, world: &mut World) -> Result<(), usize> {
-        let place = self.process.place;
+        let place = self.process.on;
         for other in world.items.parts_of(item) {
             let see = world.see();
             let is_taken = |slot: &Point| {
@@ -335,6 +375,9 @@ impl Cycle {
         }
         if let Some(Err(kind)) = item.map(|item| self.joined(item, &see)) {
             lacks.push(format!("a {kind} beside it"));
+        }
+        if item.is_some_and(|item| self.slides(item, &see)) {
+            lacks.push("an item that stands".to_string());
         }
         for (cylinder, end, name) in &self.needs {
             let mut is_there = [0.0];
@@ -364,7 +407,7 @@ impl Running for Cycle {
 
     fn advance(&mut self, world: &mut World) -> Progress {
         if std::mem::take(&mut self.is_asked) && self.works.is_none() {
-            let item = world.see().borne_by(self.process.place).next();
+            let item = self.item(&world.see());
             let lacks = self.lacks(item, world);
             match item.filter(|_| lacks.is_empty()) {
                 Some(item) => {
@@ -376,12 +419,19 @@ impl Running for Cycle {
                 None => world.crash(format!("a process was started without {lacks}")),
             }
         }
-        if let Some((item, _)) = self.works
-            && !world.see().borne_by(self.process.place).any(|borne| borne == item)
-        {
-            self.works = None;
-            let kind = world.items[item].kind;
-            world.crash(format!("a {} was taken from a process", self.kinds[kind]));
+        if let Some((item, _)) = self.works {
+            let see = world.see();
+            let kind = &self.kinds[see.items[item].kind];
+            let crash = match () {
+                () if self.slides(item, &see) => Some(format!("a {kind} was moved during a process")),
+                () if self.is_there(item, &see) => None,
+                () if self.crossing.is_some() => Some(format!("a {kind} left a process before its end")),
+                () => Some(format!("a {kind} was taken from a process")),
+            };
+            if let Some(reason) = crash {
+                self.works = None;
+                world.crash(reason);
+            }
         }
         if let Some((item, ready_ms)) = self.works
             && ready_ms <= world.next_ms()
@@ -403,9 +453,15 @@ impl Running for Cycle {
         Progress::Going
     }
 
-    fn next_change(&self, _see: &See, now_ms: u64) -> f64 {
-        let ready = self.works.map_or(f64::INFINITY, |(_, ready_ms)| ready_ms as f64);
-        if self.is_asked { now_ms as f64 } else { ready }
+    fn next_change(&self, see: &See, now_ms: u64) -> f64 {
+        let Some((item, ready_ms)) = self.works else {
+            return if self.is_asked { now_ms as f64 } else { f64::INFINITY };
+        };
+        if self.is_asked || self.slides(item, see) {
+            return now_ms as f64;
+        }
+        let leaves = self.crossing.as_ref().map_or(f64::INFINITY, |crossing| crossing.next_change(see, now_ms));
+        leaves.min(ready_ms as f64)
     }
 
     fn is_busy(&self, _see: &See) -> bool {

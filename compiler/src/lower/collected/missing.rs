@@ -1,7 +1,7 @@
 //! What is said of a kind that cannot get to where it is asked for.
 
 use super::by_hand::ByHand;
-use super::{Spot, made_of};
+use super::{Spot, made_by};
 use crate::diagnostic::Diagnostic;
 use crate::layout::decode::listing;
 use crate::source::Spanned;
@@ -40,9 +40,10 @@ impl Missing<'_> {
         let (numbers, passed): (Vec<usize>, Vec<&str>) =
             passed.map(|(number, machine)| (number, machine.name.as_str())).unzip();
         if passed.is_empty() {
-            let makers = line.machines.iter().enumerate().flat_map(|(number, machine)| {
+            let makers = line.machines.iter().flat_map(|machine| {
                 let from = line.kinds.iter().enumerate();
-                let from = from.filter(move |(from, _)| made_of(line, number, *from).any(|to| to == kind));
+                let from = from
+                    .filter(move |(from, _)| made_by(line, machine.processes(), *from).any(|to| to == kind));
                 from.map(|(_, from)| format!("{} makes it of a `{}`", machine.name, from.name))
             });
             let makers: Vec<String> = makers.collect();

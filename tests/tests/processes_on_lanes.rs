@@ -1,0 +1,142 @@
+//! Processes that work on items on a conveyor: the tester and the printer of the test station.
+
+use autogen::executor::Executor;
+use autogen_tests::{Texts, side_by_side};
+use runtime_sim::memory::Memory;
+use runtime_sim::report::Report;
+use runtime_sim::run::{Stepping, run_again};
+
+fn station(changes: &[(&str, &str)]) -> Texts {
+    side_by_side("scenes/test_station").replaced(changes)
+}
+
+/// However the run is stepped, it is the same.
+fn report(texts: &Texts) -> Report {
+    let project = texts.project();
+    let [every, events, checked] =
+        [Stepping::EveryScan, Stepping::Events, Stepping::Checked].map(|stepping| {
+            let mut executor = Executor::new(&project.system);
+            run_again(&project.plant, &mut executor, stepping, &mut Memory::default(), &mut |_| {})
+                .expect("a line that can be run")
+        });
+    assert_eq!(events, every);
+    assert_eq!(checked, every);
+    every
+}
+
+fn reason(changes: &[(&str, &str)]) -> String {
+    report(&station(changes)).reason
+}
+
+const COLLECTED: &str = "all items collected";
+
+/// An item of 0.2 m passes the printer in 0.8 s. It is seen in the scan in which its front edge gets there; the printer
+/// works from the scan after the next one on.
+#[test]
+fn an_item_may_move_under_a_process_that_says_so_as_long_as_it_is_there() {
+    let time = |time: &str| reason(&[("time: 300 ms;", time)]);
+    assert_eq!(time("time: 300 ms;"), COLLECTED);
+    assert_eq!(time("time: 760 ms;"), COLLECTED);
+    assert_eq!(time("time: 820 ms;"), "interlock of station: a good left a process before its end");
+    let still = [("moving: true; time: 300 ms;", "time: 300 ms;")];
+    assert_eq!(reason(&still), "interlock of station: a process was started without an item that stands");
+}
+
+/// The belt runs under what the stopper holds.
+#[test]
+fn an_item_that_a_stopper_holds_stands() {
+    assert_eq!(reason(&[]), COLLECTED);
+    let early = [
+        ("hold_back: bool = pin.extend stop true", "hold_back: bool = pin.extend"),
+        (
+            "when testing -> Testing { start_test := false; }",
+            "when testing -> Testing { start_test := false; hold_back := false; }",
+        ),
+    ];
+    assert_eq!(reason(&early), "interlock of station: a raw was moved during a process");
+}
+
+#[test]
+fn a_process_works_on_what_is_at_its_place() {
+    let beside = [(
+        "test = process {\n        on: belt; at: stop_at - half;",
+        "test = process {\n        on: belt; at: stop_at + 0.01;",
+    )];
+    assert_eq!(reason(&beside), "interlock of station: a process was started without an item");
+    let edge = [(
+        "test = process {\n        on: belt; at: stop_at - half;",
+        "test = process {\n        on: belt; at: stop_at - 0.001;",
+    )];
+    assert_eq!(reason(&edge), COLLECTED);
+}
+
+/// What became bad is pushed off, what was printed is collected.
+#[test]
+fn what_a_process_makes_is_seen_from_its_end_on() {
+    assert_eq!(reason(&[]), COLLECTED);
+    let all_good = [
+        ("shares: [0.3]", "shares: [0]"),
+        (
+            r#""station.store": {"printed": 6}, "station.scrap": {"bad": 2}"#,
+            r#""station.store": {"printed": 8}"#,
+        ),
+    ];
+    assert_eq!(reason(&all_good), COLLECTED);
+}
+
+#[test]
+fn a_process_that_cannot_be_on_a_lane_is_refused() {
+    let found = |from: &str, to: &str| {
+        let outcome = station(&[(from, to)]).compile();
+        assert!(outcome.project.is_none(), "{to}");
+        let found = outcome.diagnostics.into_iter();
+        found.map(|found| format!("{} {}", found.code, found.message)).collect::<Vec<_>>().join("; ")
+    };
+    let misfit = |reason: &str| format!("E0711 `station` cannot be built from its device: {reason}");
+    for (from, to, message) in [
+        (
+            "on: belt; at: print_at; moving",
+            "on: belt; moving",
+            misfit("print has no `at`: belt is a lane, and print is at a place of it"),
+        ),
+        (
+            "at: print_at; moving",
+            "at: 2.9; moving",
+            misfit("print is 2.900 m from the beginning of a lane of 2.800 m"),
+        ),
+        (
+            "makes: [raw, good];",
+            "makes: [raw, good]; joins: [good];",
+            misfit("test joins or frees items, which lie at a place together, and belt is a lane"),
+        ),
+        (
+            "makes: [raw, good];",
+            "makes: [raw, good]; frees: true;",
+            misfit("test joins or frees items, which lie at a place together, and belt is a lane"),
+        ),
+        (
+            r#""printed", "height": 0.1, "size": [0.2, 0.2]"#,
+            r#""printed", "height": 0.1, "size": [0.2, 0.25]"#,
+            "E0413 `station.print` would make a `printed` of a `good`, which is of another size".into(),
+        ),
+    ] {
+        assert_eq!(found(from, to), message);
+    }
+    let seat = "part seat = place { at: pose; slots: [point(0, 0, 0)]; by_kind: false; floor: point(0, 0, 0); \
+                floor_x: [-0.1, 0.1]; floor_y: [-0.1, 0.1]; }; part print = process { on: seat;";
+    for (setting, name) in [("at: 1;", "at"), ("moving: true;", "moving")] {
+        let to = format!("{seat} {setting} time");
+        let message = misfit(&format!("print has `{name}`, which is for a lane, and seat is a place"));
+        assert_eq!(found("part print = process { on: belt; at: print_at; moving: true; time", &to), message);
+    }
+}
+
+/// What works on another lane of the machine makes nothing of what is on this one.
+#[test]
+fn a_kind_that_is_made_on_another_lane_does_not_get_here() {
+    let elsewhere =
+        station(&[("print = process { on: belt; at: print_at;", "print = process { on: chute; at: 0.3;")]);
+    let found = elsewhere.compile().diagnostics;
+    let codes: Vec<&str> = found.iter().map(|found| found.code).collect();
+    assert_eq!(codes, ["E0410"], "{found:?}");
+}
