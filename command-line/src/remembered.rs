@@ -9,8 +9,8 @@ use autogen::version;
 use runtime_sim::line::Line;
 use runtime_sim::memory::Memory;
 use std::env::consts::{ARCH, OS};
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process;
 use std::time::SystemTime;
@@ -48,9 +48,15 @@ fn file(line: &Line) -> Option<PathBuf> {
     Some(cache::folder().ok()?.join(FORMAT).join(hash(all.as_bytes())))
 }
 
-/// The words behind their hash.
+/// The words behind their hash. The file is now the one that was used last.
 fn read(file: &Path) -> Option<Vec<u64>> {
-    let bytes = fs::read(file).ok()?;
+    if !fs::symlink_metadata(file).ok()?.is_file() {
+        return None;
+    }
+    let mut bytes = Vec::new();
+    let mut opened = File::open(file).ok()?;
+    opened.read_to_end(&mut bytes).ok()?;
+    let _ = opened.set_modified(SystemTime::now());
     let (digest, words) = bytes.split_at_checked(hash(&[]).len())?;
     let is_whole = words.len() % WORD == 0 && hash(words).as_bytes() == digest;
     let words = words.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word));
@@ -75,7 +81,10 @@ fn forget_oldest(folder: &Path) -> io::Result<()> {
     let mut files: Vec<(SystemTime, PathBuf)> = Vec::new();
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
-        files.push((entry.metadata()?.modified()?, entry.path()));
+        let metadata = entry.metadata()?;
+        if metadata.is_file() {
+            files.push((metadata.modified()?, entry.path()));
+        }
     }
     files.sort();
     let count = files.len().saturating_sub(MOST_LINES);

@@ -4,6 +4,7 @@
 use autogen::executor::Executor;
 use autogen_tests::{Texts, is_full_campaign, on_all_processors, scenes};
 use runtime_sim::memory::Memory;
+use runtime_sim::path::Path;
 use runtime_sim::point::Point;
 use runtime_sim::random::Random;
 use runtime_sim::report::Report;
@@ -451,6 +452,10 @@ fn recorded_paths_are_where_the_items_are() {
     lines.extend(scenes());
     // What comes to rest within a scan may go on in the next one.
     lines.extend((600..800).step_by(10).map(|wait| (format!("a stop, {wait} ms"), with_stop(wait))));
+    // Times that are no round numbers of seconds.
+    let mut slow = with_stop(700);
+    slow.layout = slow.layout.replacen('{', r#"{"scan_ms": 7, "#, 1);
+    lines.push(("scans of 7 ms".into(), slow));
     for (name, texts) in lines {
         let outcome = texts.compile();
         let project = outcome.project.unwrap_or_else(|| panic!("{name}: {:?}", outcome.diagnostics));
@@ -463,6 +468,14 @@ fn recorded_paths_are_where_the_items_are() {
         };
         let mut executor = Executor::new(&project.system);
         let recorded = record(&project.plant, &mut executor, Stepping::EveryScan, &[], &mut observe).unwrap();
+        let mut executor = Executor::new(&project.system);
+        let of_events = record(&project.plant, &mut executor, Stepping::Events, &[], &mut |_| {}).unwrap();
+        for (one, other) in of_events.paths.iter().zip(&recorded.paths) {
+            let times = |path: &Path| -> Vec<[f64; 2]> {
+                path.segments.iter().map(|segment| [segment.begin_ms, segment.end_ms]).collect()
+            };
+            assert_eq!(times(one), times(other), "{name}: other times from event to event");
+        }
         let mut compared = 0;
         for (ms, places) in seen {
             for (path, (carrier, place)) in recorded.paths.iter().zip(places) {

@@ -79,3 +79,47 @@ fn an_arm_that_stands_in_an_obstacle_at_its_rest_is_named() {
     allowed.layout = allowed.layout.replacen('{', may_touch, 1);
     assert_eq!(codes(&allowed), Vec::<&str>::new());
 }
+
+/// An arm whose last joint turns by 50 degrees to either side at most.
+#[test]
+fn a_tool_that_cannot_be_turned_so_is_not_said_to_be_out_of_reach() {
+    let notes = |place: &str| {
+        let specs = vec![
+            "device six {
+                part arm = chain {
+                    from: origin * frame(0, 0, 0.4, 0);
+                    opw: [0.100, -0.135, 0, 0.615, 0.705, 0.755, 0.085]; offsets: [0, 0, -90, 0, 0, 0];
+                    tool_length: 0.15; rest: origin * point(0.9, 0.5, 0.95);
+                    lowest: [-180, -100, -60, -30, -120, -50]; highest: [180, 110, 65, 30, 120, 50];
+                    speeds: [2.6, 2.6, 2.6, 6.2, 6.2, 7.8]; acceleration: 4.0;
+                };
+                out goal: point unit \"m\";
+                out turn: real;
+                command 1 turned(goal, turn) = arm.oriented(goal, turn);
+            }
+            automaton Tester on six {
+                parameter place: point;
+                initial -> Along {}
+                state Along = sequence { turned(place, 0.0); } -> Against {} else Against {}
+                state Against = sequence { turned(place, 3.14159265); } -> Ended {} else Ended {}
+                final state Ended;
+            }"
+            .into(),
+        ];
+        let layout = format!(
+            r#"{{"robots": [{{"name": "arm", "type": "tester", "pose": [0, 0, 0], "parameters": {{"place": {place}}}}}]}}"#
+        );
+        run(&Texts { layout, specs, scenario: Some(r#"{"time_limit_s": 20}"#.into()), ..Texts::default() })
+            .notes
+    };
+    let near = notes("[0.9, 0.3, 0.6]");
+    assert_eq!(near.len(), 1, "{near:?}");
+    let turned =
+        ": (0.900, 0.300, 0.600) is in reach, but not with the tool turned so: a joint would pass its limit";
+    assert!(near[0].starts_with("command 1 of arm") && near[0].ends_with(turned), "{near:?}");
+    let far = notes("[2.9, 0.2, 0.7]");
+    assert!(
+        far.iter().any(|note| note.contains(" 2 times: (2.900, 0.200, 0.700) is out of reach by ")),
+        "{far:?}"
+    );
+}

@@ -1,6 +1,8 @@
 //! What `commission` keeps in the cache: compiled controllers, and what runs have found.
 
 use super::*;
+use std::fs::File;
+use std::time::{Duration, SystemTime};
 
 /// Of public items without a description there are many.
 #[test]
@@ -47,4 +49,37 @@ fn what_a_run_has_found_is_kept_and_a_damaged_file_is_replaced() {
         assert_eq!(run(), results);
         assert_eq!(kept().1.len(), found.len());
     }
+}
+
+/// A run that finds nothing new has used its file all the same. What is no file is left alone.
+#[test]
+fn what_was_not_used_for_longest_is_forgotten() {
+    let folder = folder("forgotten");
+    let cache = folder.join("cache");
+    let layout = example("tending/tending.json");
+    let run = || {
+        let output = autogen_in(&folder, &cache, &["commission", &layout, "-o", "out", "--no-report"]);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+    };
+    let runs = cache.join("autogen/runs-1");
+    let write = |name: &Path, hours: u64| {
+        let file = File::create(runs.join(name)).expect("a file");
+        file.set_modified(SystemTime::now() - Duration::from_secs(3600 * hours)).expect("a file of mine");
+    };
+    run();
+    let (own, _) = contents(&runs).into_iter().next().expect("a file");
+    let old = File::open(runs.join(&own)).expect("a file");
+    let before = SystemTime::now() - Duration::from_secs(3600);
+    old.set_modified(before).expect("a file of mine");
+    run();
+    let used = old.metadata().and_then(|file| file.modified()).expect("a time");
+    assert!(used > before, "a run has used it");
+
+    fs::create_dir(runs.join("folder")).expect("a folder");
+    (0..50).for_each(|number| write(Path::new(&format!("other{number}")), if number == 7 { 3 } else { 1 }));
+    write(&own, 0);
+    run();
+    let left: Vec<u64> = (0..50).filter(|number| !runs.join(format!("other{number}")).exists()).collect();
+    assert_eq!(left, [7]);
+    assert!(runs.join(own).exists() && runs.join("folder").exists());
 }

@@ -83,6 +83,8 @@ struct Evaluated {
 pub(super) struct Motion<'a> {
     state: usize,
     pub(super) transition: &'a Transition,
+    /// Where the command is written.
+    place: Span,
     /// The places past which it goes, and the last one.
     pub(super) goals: Vec<(&'a Expr, Facing)>,
     /// The locals by which it reads places of other machines.
@@ -133,7 +135,7 @@ pub fn range(given: &Given, instance: usize, moving: &Moving) -> Range {
     let mut gone: HashSet<(Option<*const Stages>, *const Stages, BTreeSet<Holder>)> = HashSet::new();
     for bound in bounds(system, instance) {
         for (number, motion) in motions.iter().enumerate() {
-            let place = motion.transition.place;
+            let place = motion.place;
             let Some(stages) = goals(number, &bound) else {
                 return Range::Whole(moving.whole(), place);
             };
@@ -337,7 +339,7 @@ pub(super) fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>>
                 if !goals.is_empty() && !goals.iter().any(|(goal, _)| asks_tool.expression(goal)) {
                     let mut named = BTreeSet::new();
                     goals.iter().for_each(|(goal, _)| names(automaton, goal, &mut named));
-                    motions.push(Motion { state, transition, goals, named });
+                    motions.push(Motion { state, transition, place: update.place, goals, named });
                 }
             }
         }

@@ -39,6 +39,10 @@ impl Facing {
         turn.is_finite().then_some(Self::Oriented { x, y })
     }
 
+    pub fn is_oriented(self) -> bool {
+        matches!(self, Self::Oriented { .. })
+    }
+
     /// What `x` of [`Self::pose`] may be.
     pub(super) fn signs(self) -> &'static [f64] {
         match self {

@@ -72,7 +72,7 @@ impl Recorder {
                 && let Some(stood_s) = last.stood_after(&conveyed, passed_s)
             {
                 let carrier = plant.items()[item].carrier;
-                let begin_ms = now_ms + 1000.0 * (stood_s - passed_s);
+                let begin_ms = to_nanosecond(now_ms + 1000.0 * (stood_s - passed_s));
                 let path = &mut self.paths[item];
                 path.cut(begin_ms);
                 let law = Law::Rests(conveyed.point(0.0));
@@ -167,6 +167,11 @@ impl Recorder {
             }
         }
     }
+}
+
+/// A time in ms without what is rounded in it, which depends on the scan before.
+fn to_nanosecond(ms: f64) -> f64 {
+    libm::round(ms * 1e6) / 1e6
 }
 
 fn slides(from: Point, velocity: Point) -> Law {

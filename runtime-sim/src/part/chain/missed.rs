@@ -1,5 +1,7 @@
 //! Why a motion of an arm does not come to its goal.
 
+use crate::kinematics::arm::Arm;
+use crate::kinematics::facing::Facing;
 use crate::kinematics::straight;
 use crate::point::Point;
 use crate::shortage::point_text;
@@ -17,6 +19,8 @@ pub struct Missed {
 pub enum Why {
     /// By so much, m, if that is known.
     OutOfReach(Option<f64>),
+    /// The tool comes there, but not turned as it should be.
+    Turn,
     /// The arm would have to bend in another way on a straight line.
     NotStraight,
     /// The planner found no path that keeps off all obstacles.
@@ -34,17 +38,27 @@ impl PartialEq for Missed {
 }
 
 impl Missed {
-    /// `margin` is that of the place, m.
-    pub fn new(place: Point, margin: f64, why: straight::Missed) -> Self {
+    /// On a straight line.
+    pub fn new(arm: &Arm, place: Point, facing: Facing, why: straight::Missed) -> Self {
         match why {
-            straight::Missed::OutOfReach => Self::out_of_reach(place, margin),
+            straight::Missed::OutOfReach if facing.is_oriented() => Self::turned(arm, place),
+            straight::Missed::OutOfReach => Self::out_of_reach(place, arm.margin_facing(place, facing)),
             straight::Missed::NotStraight => Self { place, why: Why::NotStraight },
         }
     }
 
+    /// `margin` is that of the place, m.
     pub fn out_of_reach(place: Point, margin: f64) -> Self {
         let by = (margin.is_finite() && margin < 0.0).then_some(-margin);
         Self { place, why: Why::OutOfReach(by) }
+    }
+
+    /// Of a tool that points down and should have a turn.
+    pub fn turned(arm: &Arm, place: Point) -> Self {
+        match arm.margin(place) {
+            margin if margin >= 0.0 => Self { place, why: Why::Turn },
+            margin => Self::out_of_reach(place, margin),
+        }
     }
 }
 
@@ -54,6 +68,7 @@ impl Display for Missed {
         match self.why {
             Why::OutOfReach(Some(by)) => write!(f, "{place} is out of reach by {:.0} mm", (1000.0 * by).ceil()),
             Why::OutOfReach(None) => write!(f, "{place} is out of reach"),
+            Why::Turn => write!(f, "{place} is in reach, but not with the tool turned so: a joint would pass its limit"),
             Why::NotStraight => write!(
                 f,
                 "{place} is in reach, but not in a straight line: on the way the arm would have to bend in another way"

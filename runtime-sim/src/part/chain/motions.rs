@@ -200,16 +200,16 @@ impl Motions {
         let knots: Vec<Knot> = match target {
             Target::Place(goal) => {
                 let line = arm.line_to(*goal, directed);
-                knots(line.map_err(|why| Missed::new(*goal, arm.margin(*goal), why))?)
+                knots(line.map_err(|why| Missed::new(arm, *goal, Facing::Down, why))?)
             }
             Target::Direct(goal) => vec![Knot::new(solve(*goal, directed)?)],
             Target::Facing(goal, facing) => {
                 let line = arm.line_facing(*goal, *facing, directed);
-                knots(line.map_err(|why| Missed::new(*goal, arm.margin_facing(*goal, *facing), why))?)
+                knots(line.map_err(|why| Missed::new(arm, *goal, *facing, why))?)
             }
             Target::Turned(goal, turn) => {
                 let joints = arm.solve_turned(*goal, *turn, directed);
-                vec![Knot::new(joints.ok_or_else(|| out_of_reach(*goal))?)]
+                vec![Knot::new(joints.ok_or_else(|| Missed::turned(arm, *goal))?)]
             }
             Target::Past(via, goal) => {
                 let via = solve(*via, directed)?;
