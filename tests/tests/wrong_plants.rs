@@ -237,3 +237,45 @@ fn an_output_that_only_a_person_sets() {
     assert_eq!(warnings("line"), ["W0109"]);
     assert_eq!(warnings("machines"), [""; 0]);
 }
+
+#[test]
+fn floors_that_do_not_turn_with_their_machine() {
+    let warned = |place: &str, yaw: f64| -> usize {
+        let texts = Texts {
+            specs: vec![format!(
+                "device table {{
+                    part drive = positioner {{ positions: [0, 90]; turns: 90; pivot: origin * point(0, 0, 0); speed: 30; }};
+                    part cart = track {{
+                        corners: [pose, pose + point(2, 0, 0)]; closed: false; places: [0, 2]; speed: 1; acceleration: 1; mass: 9;
+                    }};
+                    part seat = place {{
+                        {place} at: pose; slots: [point(0, 0, 0)]; by_kind: false; floor: point(0, 0, 0);
+                    }};
+                    in place: int -1..31 = drive.place;
+                }}
+                automaton Table on table {{ initial state S {{ when false -> S {{}} }} }}"
+            )],
+            ..Texts::of_layout(format!(
+                r#"{{"robots": [{{"name": "table", "type": "table", "pose": [0, 0, 0, {yaw:?}]}}]}}"#
+            ))
+        };
+        let outcome = texts.compile();
+        assert!(outcome.diagnostics.is_empty(), "{:?}", outcome.diagnostics);
+        outcome.warnings.iter().filter(|found| found.code == "W0205").count()
+    };
+    let floor = |x: &str, y: &str| format!("floor_x: [{x}]; floor_y: [{y}];");
+    let long = floor("-0.2, 0.2", "-0.5, 0.5");
+    let square = floor("-0.2, 0.2", "-0.2, 0.2");
+    let aside = floor("-0.2, 0.2", "-0.1, 0.3");
+    for (place, turned_by) in [
+        (long.clone(), [0, 1, 0, 1, 0]),
+        (square, [0, 0, 0, 1, 0]),
+        (aside, [0, 1, 1, 1, 0]),
+        (format!("on: drive; {long}"), [0, 1, 0, 1, 0]),
+        (format!("on: cart; {long}"), [0, 0, 0, 0, 0]),
+        (format!("toward: point(0, 1, 0); {long}"), [0, 0, 0, 0, 0]),
+    ] {
+        let found = [0.0, 90.0, 180.0, 45.0, 360.0].map(|yaw| warned(&place, yaw));
+        assert_eq!(found, turned_by, "{place}");
+    }
+}

@@ -5,6 +5,7 @@ mod beams;
 mod contradiction;
 mod driven;
 mod failure;
+mod floors;
 mod flow;
 mod implies;
 mod lanes;
@@ -45,6 +46,7 @@ pub fn of_layout(layout: &Layout, system: &System, line: &Line) -> Vec<Diagnosti
     let mut found = lanes::check(layout, system, line);
     found.extend(beams::check(system, line));
     found.extend(driven::check(layout, line));
+    found.extend(floors::check(layout, system, line));
     diagnostic::sort(&mut found);
     found
 }

@@ -25,7 +25,7 @@ pub const SCHEMA: Schema = Schema::new(
         Setting::new("slots", Form::Points, "m", "places of the undersides of items, from the origin"),
         Setting::new("by_kind", Form::Truth, "", "each slot is for one kind, in the order of the kinds"),
         Setting::new("floor", Form::Point, "m", "middle of the floor, from the origin"),
-        Setting::new("floor_x", Form::Range, "m", "extent of the floor along x, from its middle"),
+        Setting::new("floor_x", Form::Range, "m", "extent of the floor along the x axis of the world, from its middle; on a track along the vehicle"),
         Setting::new("floor_y", Form::Range, "m", "the same along y"),
         Setting::new(
             "drawn",
