@@ -1,5 +1,6 @@
 //! Items, and the one carrier that each of them has at every moment.
 
+pub mod block;
 pub mod footprint;
 mod states;
 
@@ -163,6 +164,12 @@ impl Items {
             self.parts.remove(&item);
             self.turns.remove(&item);
         }
+        self.log.push(Event::Item { scan: self.scan, item, from, to, point });
+    }
+
+    /// What bears an item bears it elsewhere.
+    pub(crate) fn shift(&mut self, item: usize, to: Carrier, point: Point) {
+        let from = self.states.carry(item, to);
         self.log.push(Event::Item { scan: self.scan, item, from, to, point });
     }
 

@@ -40,6 +40,13 @@ pub struct Kind {
     pub mass: f64,
 }
 
+impl Kind {
+    /// Along x and y as it appears on a belt, and upwards, m.
+    pub fn lengths(&self) -> Point {
+        Point::new(self.size[0], self.size[1], self.height)
+    }
+}
+
 /// Something stationary without an automaton.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Obstacle {

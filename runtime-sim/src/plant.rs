@@ -8,12 +8,12 @@ pub(crate) mod fall;
 mod faults;
 mod gripping;
 mod idle;
+mod mishap;
 mod missed;
 mod phase;
 mod removing;
 mod sight;
 pub mod trajectory;
-mod upright;
 mod working;
 
 pub(crate) use delay::{Arrived, Bus};
@@ -23,7 +23,7 @@ use crate::frame::Frame;
 use crate::item::{Items, Names};
 use crate::kinematics::arm::Joints;
 use crate::kinematics::wrapped;
-use crate::line::{Line, Obstacle};
+use crate::line::{Kind, Line, Obstacle};
 use crate::memory::Memory;
 use crate::part::Primitive;
 use crate::part::orders::Desk;
@@ -35,11 +35,11 @@ use conveying::{Among, Conveying, Falls, View};
 pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use fall::Falling;
 use gripping::{Lying, NextLook};
+use mishap::Mishap;
 pub(crate) use missed::{Entry, MissedCommands};
 pub use removing::NotRemoved;
 use removing::Removing;
 use trajectory::Trajectory;
-use upright::Upright;
 use working::{Shared, Working};
 
 /// A time is not distinguished from one that is so much later.
@@ -57,8 +57,8 @@ pub struct Plant {
     names: Names,
     /// Of the kinds: over the underside of an item, where it is gripped, m.
     grasps: Vec<f64>,
-    /// Of the kinds.
-    bodies: Vec<Upright>,
+    /// Of items of the kinds, m.
+    sizes: Vec<Point>,
     obstacles: Vec<Obstacle>,
     desk: Desk,
     images: Vec<Vec<f64>>,
@@ -115,7 +115,7 @@ impl Plant {
             items,
             names,
             grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
-            bodies: line.kinds.iter().map(Upright::of).collect(),
+            sizes: line.kinds.iter().map(Kind::lengths).collect(),
             obstacles: line.obstacles.clone(),
             desk,
             images,
@@ -238,42 +238,15 @@ impl Plant {
     }
 
     fn fall(&mut self, Falls { item, from, ms }: Falls) {
-        let (carrier, point) = fall::fall(self, &self.falling(item, from), ms);
-        if let (Some(under), Some(machine)) = (self.lies_under(item, &carrier, ms), carrier.machine()) {
-            self.crash_onto(machine, [item, under], "which lies on a conveyor");
-        } else if let Some((machine, under)) = self.is_in(item, &carrier) {
-            self.crash_onto(machine, [item, under], "which lies there");
+        let landing = self.landing(item, from, ms);
+        if let Some(Mishap { machine, reason }) = self.mishap(&landing) {
+            self.items.crash(machine, reason);
         }
-        self.hand_over(item, carrier, point);
+        self.hand_over(item, landing.carrier, landing.point);
     }
 
     fn falling(&self, item: usize, point: Point) -> Falling {
         Falling { point, upper: self.upper(item), kind: self.items[item].kind, turn: self.turn(item) }
-    }
-
-    fn crash_onto(&mut self, machine: usize, two: [usize; 2], lies: &str) {
-        let [upper, lower] = two.map(|item| self.names.name(item));
-        self.items.crash(machine, format!("{upper} comes down on {lower}, {lies}"));
-    }
-
-    /// The machine of a place and an item there in which another one would be, however both are turned.
-    fn is_in(&self, item: usize, lands: &Carrier) -> Option<(usize, usize)> {
-        let Carrier::Place { machine, part, offset } = *lands else { return None };
-        let body = |item: usize| self.bodies[self.items[item].kind];
-        let others = self.items.borne_by(machine).iter().copied().filter(|other| *other != item);
-        let mut others = others.filter(|other| self.upper(*other).is_none());
-        let found = others.find(|other| {
-            let Carrier::Place { part: of, offset: lies, .. } = self.items[*other].carrier else {
-                return false;
-            };
-            of == part && body(item).is_in(offset, &body(*other), lies)
-        });
-        found.map(|other| (machine, other))
-    }
-
-    /// An item on a conveyor on which another one comes down.
-    fn lies_under(&mut self, item: usize, carrier: &Carrier, ms: f64) -> Option<usize> {
-        self.convey(|conveying, among, _| conveying.lies_under(among, item, carrier, ms))
     }
 
     fn slip(&mut self, scan: u64) {
@@ -285,13 +258,13 @@ impl Plant {
         }
     }
 
-    /// An item that slips falls; it does not stay on another one that lies on a conveyor.
+    /// An item that slips falls, to the floor where it cannot lie.
     fn lose(&mut self, item: usize, ms: f64) {
         let Some(from) = self.place(item) else { return };
-        let (carrier, point) = fall::fall(self, &self.falling(item, from), ms);
-        let (carrier, point) = match self.lies_under(item, &carrier, ms) {
+        let landing = self.landing(item, from, ms);
+        let (carrier, point) = match self.mishap(&landing) {
             Some(_) => fall::to_floor(self, from),
-            None => (carrier, point),
+            None => (landing.carrier, landing.point),
         };
         self.hand_over(item, carrier, point);
     }

@@ -56,6 +56,7 @@ mod specs;
 mod spin;
 mod st_compared;
 mod st_output;
+mod stacking;
 mod stepping;
 mod strokes;
 mod structured_text;

@@ -107,8 +107,7 @@ impl CollisionCheck {
             let all = pairs.iter().enumerate();
             all.filter(|(_, pair)| pair.groups.contains(&group)).map(|(number, _)| number).collect()
         };
-        let size = |kind: &line::Kind| Point::new(kind.size[0], kind.size[1], kind.height);
-        let sizes: Vec<Point> = line.kinds.iter().map(size).collect();
+        let sizes: Vec<Point> = line.kinds.iter().map(line::Kind::lengths).collect();
         Self {
             items: BTreeMap::new(),
             names: Names::new(line),

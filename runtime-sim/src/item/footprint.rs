@@ -3,7 +3,7 @@
 use crate::point::Point;
 
 /// Rectangles that are in one another by no more touch, m.
-const TOUCHES: f64 = 1e-4;
+pub(super) const TOUCHES: f64 = 1e-4;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Footprint {
@@ -34,6 +34,12 @@ impl Footprint {
         let apart = [other.middle[0] - self.middle[0], other.middle[1] - self.middle[1]];
         let mut sides = self.axes.into_iter().chain(other.axes);
         sides.all(|along| dot(apart, along).abs() < self.extent(along) + other.extent(along) - TOUCHES)
+    }
+
+    /// Whether a point is over or under it.
+    pub fn contains(&self, point: Point) -> bool {
+        let from_middle = [point.x - self.middle[0], point.y - self.middle[1]];
+        (0..2).all(|axis| dot(from_middle, self.axes[axis]).abs() <= self.half[axis])
     }
 }
 
@@ -69,6 +75,22 @@ mod tests {
         ] {
             assert_eq!(middle.overlaps(&at(x, y, turn)), overlaps, "{x} {y} {turn}");
             assert_eq!(at(x, y, turn).overlaps(&middle), overlaps, "{x} {y} {turn}");
+        }
+    }
+
+    #[test]
+    fn a_turned_rectangle_contains_what_is_between_its_sides() {
+        let (long, middle) = (Point::new(0.6, 0.2, 0.1), Point::new(1.0, 0.0, 0.0));
+        for (x, y, turn, contains) in [
+            (1.29, 0.09, 0.0, true),
+            (1.31, 0.0, 0.0, false),
+            (1.0, 0.11, 0.0, false),
+            (1.0, 0.29, FRAC_PI_2, true),
+            (1.2, 0.2, FRAC_PI_4, true),
+            (1.2, 0.2, -FRAC_PI_4, false),
+        ] {
+            let print = Footprint::new(long, middle, turn);
+            assert_eq!(print.contains(Point::new(x, y, 0.5)), contains, "{x} {y} {turn}");
         }
     }
 }

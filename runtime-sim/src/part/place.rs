@@ -1,12 +1,18 @@
 //! Where items lie: slots on a floor that stands or is carried.
 
+mod stack;
+
+pub use stack::Stack;
+use stack::{Floor, Rest};
+
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, See, Start, Primitive};
 use crate::carrier::Carrier;
 use crate::frame::Frame;
 use crate::item::Item;
-use crate::item::footprint::Footprint;
+use crate::item::block::Block;
 use crate::kinematics::facing::Facing;
+use crate::line::Kind;
 use crate::plant::conveyed::Conveyed;
 use crate::plant::fall::{Falling, SINK};
 use crate::point::Point;
@@ -38,7 +44,7 @@ pub const SCHEMA: Schema = Schema::new(
             "stacks",
             Form::Truth,
             "",
-            "items lie on one another, each on the highest of those under any part of it, as they are turned; without it each lies on the floor. Taking an item on which another one lies ends the run",
+            "items lie on one another, each on the highest of those under any part of it, as they are turned; without it each lies on the floor. Taking an item on which another one lies ends the run. So does an item that comes down [into or off](#items-on-conveyors) another one. What lies on an item that a process changes or takes away comes down, or is lifted",
         )
         .optional(),
         Setting::new(
@@ -99,16 +105,13 @@ impl Described for Place {
         let orders =
             start.find(|other| matches!(other, Primitive::Orders(orders) if orders.place == part));
         let kinds = start.line.kinds.iter();
-        let sizes = kinds.map(|kind| Point::new(kind.size[0], kind.size[1], kind.height)).collect();
+        let sizes = kinds.map(Kind::lengths).collect();
         Ok(Some(Box::new(Bearing { place: self.clone(), part, orders, sizes })))
     }
 }
 
 /// Cosine of the angle between two directions that are less than 45 degrees from opposite ones.
 pub const OPPOSITE: f64 = -std::f64::consts::FRAC_1_SQRT_2;
-
-/// Upper side and underside of two items of which one lies on the other one, m.
-const SAME_HEIGHT: f64 = 1e-6;
 
 /// A place at work.
 #[derive(Clone, Debug)]
@@ -131,24 +134,22 @@ impl Bearing {
         (is_near && fits).then_some((point.z, carrier))
     }
 
-    /// Of an item of this kind, from the origin.
-    fn footprint(&self, kind: usize, offset: Point, turn: f64) -> Footprint {
-        Footprint::new(self.sizes[kind], offset, turn)
+    /// From the origin; where they do not lie on one another, without them.
+    fn all(&self, see: &See) -> Stack {
+        let Place { floor, floor_x, floor_y, stacks, .. } = self.place;
+        let borne = see.borne_by(self.part).filter(|_| stacks);
+        let items = borne.filter_map(|item| {
+            let Item { kind, carrier } = see.items[item];
+            Some((item, Block::new(self.sizes[kind], carrier.offset()?, see.items.turn(item))))
+        });
+        Stack::new(Floor { middle: floor, x: floor_x, y: floor_y }, items.collect())
     }
 
-    /// The highest upper side of an item under another one, from the origin; none if no item is there.
-    fn top_under(&self, point: Point, falls: &Footprint, see: &See) -> Option<f64> {
-        if !self.place.stacks {
-            return None;
-        }
-        let tops = see.borne_by(self.part).filter_map(|item| {
-            let (Item { kind, carrier }, turn) = (see.items[item], see.items.turn(item));
-            let Carrier::Place { offset, .. } = carrier else { return None };
-            let top = offset.z + self.sizes[kind].z;
-            let is_over = falls.overlaps(&self.footprint(kind, offset, turn));
-            (is_over && top <= point.z + SINK).then_some(top)
-        });
-        tops.reduce(f64::max)
+    /// Where an item comes to rest, from the origin.
+    fn rest(&self, falling: &Falling, frame: Frame, see: &See) -> Option<Rest> {
+        let seen = frame.seen(falling.point);
+        let turn = falling.turn - frame.yaw.to_radians();
+        self.all(see).rest(&Block::new(self.sizes[falling.kind], seen, turn), seen.z + SINK)
     }
 
     /// Its frame, parallel to the world at the inner end of what carries it, on a track as the vehicle is turned; at this time from the start of the span on, ms,
@@ -172,41 +173,36 @@ impl Running for Bearing {
     }
 
     fn below(&self, falling: &Falling, ms: f64, see: &See) -> Option<(f64, Carrier)> {
-        let Falling { point, upper, kind, turn } = *falling;
         if self.orders.is_some_and(|orders| !see.is_open(orders)) {
             return None;
         }
-        let Place { floor, floor_x, floor_y, .. } = self.place;
         let frame = self.frame(see, Some(ms));
         if self.place.facing != Facing::Down {
-            return self.held(point, upper, frame, see);
+            return self.held(falling.point, falling.upper, frame, see);
         }
-        let seen = frame.seen(point);
-        let from_middle = seen - floor;
-        let is_within = |at: f64, [low, high]: [f64; 2]| (low..=high).contains(&at);
-        let meets = is_within(from_middle.x, floor_x) && is_within(from_middle.y, floor_y);
-        let falls = self.footprint(kind, seen, turn - frame.yaw.to_radians());
-        let height = self.top_under(seen, &falls, see).unwrap_or(floor.z);
-        let offset = Point { z: height, ..seen };
+        let height = self.rest(falling, frame, see)?.height;
+        let offset = Point { z: height, ..frame.seen(falling.point) };
         let carrier = Carrier::Place { machine: see.machine, part: self.part, offset };
-        meets.then_some((frame.position.z + height, carrier))
+        Some((frame.position.z + height, carrier))
     }
 
-    /// Its underside is at the upper side of the other one, and over it.
+    fn stack(&self, see: &See) -> Option<Stack> {
+        self.place.stacks.then(|| self.all(see))
+    }
+
+    fn tips_off(&self, falling: &Falling, ms: f64, see: &See) -> Option<usize> {
+        self.rest(falling, self.frame(see, Some(ms)), see)?.tips_off
+    }
+
     fn lies_on(&self, item: usize, see: &See) -> Option<usize> {
-        let on = |item: usize| match see.items[item].carrier {
-            Carrier::Place { offset, .. } => {
-                let kind = see.items[item].kind;
-                Some((offset.z, self.sizes[kind].z, self.footprint(kind, offset, see.items.turn(item))))
-            }
-            _ => None,
-        };
-        let (floor, height, under) = on(item).filter(|_| self.place.stacks)?;
-        see.borne_by(self.part).find(|other| {
-            on(*other).is_some_and(|(upper, _, lies)| {
-                (upper - floor - height).abs() < SAME_HEIGHT && lies.overlaps(&under)
-            })
-        })
+        self.stack(see)?.lies_on(item)
+    }
+
+    fn block(&self, item: usize, ms: f64, see: &See) -> Option<Block> {
+        let Item { kind, carrier } = see.items[item];
+        let (offset, frame) = (carrier.offset()?, self.frame(see, Some(ms)));
+        let turn = see.items.turn(item) + frame.yaw.to_radians();
+        (self.place.facing == Facing::Down).then(|| Block::new(self.sizes[kind], frame.point(offset), turn))
     }
 
     fn place(&self, _item: usize, carrier: &Carrier, see: &See) -> Option<Point> {

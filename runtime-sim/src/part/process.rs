@@ -1,6 +1,7 @@
 //! What takes its time with an item at a place or on a lane: milling, welding, testing.
 
 mod distribution;
+mod stacked;
 
 use distribution::{Distribution, TIMES, Times};
 
@@ -438,10 +439,12 @@ impl Running for Cycle {
         {
             (self.works, self.has_ended) = (None, true);
             let joined = self.joined(item, &world.see()).map_err(|kind| format!("a {kind} was taken from a process"));
-            match joined {
-                Ok(joined) => joined.into_iter().for_each(|other| world.join(other, item)),
-                Err(reason) => world.crash(reason),
-            }
+            let before = world.see().stack(self.process.on);
+            let joined = joined.unwrap_or_else(|reason| {
+                world.crash(reason);
+                Vec::new()
+            });
+            joined.iter().for_each(|other| world.join(*other, item));
             if self.process.frees
                 && let Err(kind) = self.free(item, world)
             {
@@ -449,6 +452,11 @@ impl Running for Cycle {
             }
             let kind = world.items[item].kind;
             world.items.remake(item, self.made_of(kind));
+            if let Some(before) = before
+                && let Err(reason) = self.settle(item, &before, &joined, world)
+            {
+                world.crash(reason);
+            }
         }
         Progress::Going
     }

@@ -4,6 +4,7 @@ use super::chain::missed::Missed;
 use crate::carrier::Carrier;
 use crate::device::error;
 use crate::item::Items;
+use crate::item::block::Block;
 use crate::kinematics::arm::Joints;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
@@ -11,6 +12,7 @@ use crate::machine::Machine;
 use crate::memory::Memory;
 use crate::part::Primitive;
 use crate::part::orders::Desk;
+use crate::part::place::Stack;
 use crate::part::stroke::Carriage;
 use crate::part::{lane, scanner, track};
 use crate::plant::conveyed::Conveyed;
@@ -116,6 +118,14 @@ impl<'a> World<'a> {
         self.items.pass(item, carrier, place);
     }
 
+    /// An item at a place of the machine moves on it.
+    pub fn shift(&mut self, item: usize, part: usize, offset: Point) {
+        let carrier = Carrier::Place { machine: self.machine, part, offset };
+        let see = self.see();
+        let place = see.part(part).and_then(|place| place.place(item, &carrier, &see)).unwrap_or_default();
+        self.items.shift(item, carrier, place);
+    }
+
     /// The machine did what would break it: the run ends.
     pub fn crash(&mut self, reason: String) {
         self.items.crash(self.machine, reason);
@@ -169,6 +179,11 @@ impl<'a> See<'a> {
     /// Where the underside of an item is that a part of this machine bears.
     pub fn place(&self, part: usize, item: usize) -> Option<Point> {
         self.part(part)?.place(item, &self.items[item].carrier, self)
+    }
+
+    /// The items of a place of this machine where they lie on one another.
+    pub fn stack(&self, part: usize) -> Option<Stack> {
+        self.part(part)?.stack(self)
     }
 
     /// Items that a part of this machine bears, in the order in which they came.
@@ -301,6 +316,21 @@ pub trait Running: std::fmt::Debug + Send + Sync {
 
     /// An item that lies on this one, at the same place.
     fn lies_on(&self, _item: usize, _see: &See) -> Option<usize> {
+        None
+    }
+
+    /// The items of a place where they lie on one another.
+    fn stack(&self, _see: &See) -> Option<Stack> {
+        None
+    }
+
+    /// An item off which another one tips that comes down here at this time, ms.
+    fn tips_off(&self, _falling: &Falling, _ms: f64, _see: &See) -> Option<usize> {
+        None
+    }
+
+    /// What an item takes up at this time, ms, that stands here.
+    fn block(&self, _item: usize, _ms: f64, _see: &See) -> Option<Block> {
         None
     }
 

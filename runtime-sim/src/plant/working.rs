@@ -11,6 +11,7 @@ use super::phase::Phase;
 use crate::carrier::Carrier;
 use crate::device::error;
 use crate::item::Items;
+use crate::item::block::{Block, SAME_HEIGHT};
 use crate::kinematics::arm::Joints;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
@@ -441,6 +442,20 @@ impl Working {
     pub fn lies_on(&self, item: usize, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<usize> {
         let part = self.parts.get(carrier.part()?)?.as_ref()?;
         part.lies_on(item, &self.see(items, desk))
+    }
+
+    /// An item off which another one tips that comes down to this height; none if a part of the machine bears it there.
+    pub fn tips_off(&self, falling: &Falling, height: f64, ms: f64, see: &See) -> Option<usize> {
+        let meets = |part: &&dyn Running| {
+            part.below(falling, ms, see).is_some_and(|(surface, _)| (surface - height).abs() < SAME_HEIGHT)
+        };
+        let off = self.running().filter(meets).map(|part| part.tips_off(falling, ms, see));
+        off.collect::<Option<Vec<usize>>>()?.first().copied()
+    }
+
+    /// What an item takes up at a time, ms, that stands at one of its places.
+    pub fn block(&self, item: usize, ms: f64, see: &See) -> Option<Block> {
+        self.parts.get(see.items[item].carrier.part()?)?.as_ref()?.block(item, ms, see)
     }
 
     pub fn place(&self, item: usize, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<Point> {

@@ -26,6 +26,9 @@ impl Handovers {
         let mut all = Self { of_items: HashMap::new(), to_machines: vec![Vec::new(); machines] };
         for event in events {
             let Event::Item { scan, item, from, to, .. } = *event else { continue };
+            if moves_at_its_place(from, to) {
+                continue;
+            }
             let handover = Handover { scan, item, from };
             all.of_items.entry(item).or_default().push(handover);
             if let Carrier::Lane { machine, .. } | Carrier::Place { machine, .. } = to {
@@ -47,4 +50,10 @@ impl Handovers {
         let last = all[..all.partition_point(|handover| handover.scan <= until)].last().copied();
         last.filter(|handover| handover.scan > after)
     }
+}
+
+/// What lies on an item that a process changes comes to another height.
+fn moves_at_its_place(from: Carrier, to: Carrier) -> bool {
+    let place = |carrier: Carrier| carrier.offset().and(carrier.machine().zip(carrier.part()));
+    place(from).is_some() && place(from) == place(to)
 }

@@ -1,0 +1,82 @@
+//! What comes down on another item, or off one.
+
+use super::Plant;
+use super::fall::{self, Falling};
+use crate::carrier::Carrier;
+use crate::item::block::Block;
+use crate::point::Point;
+
+/// Of an item that falls.
+pub(super) struct Landing {
+    item: usize,
+    falling: Falling,
+    ms: f64,
+    pub carrier: Carrier,
+    pub point: Point,
+}
+
+/// It cannot lie there.
+pub(super) struct Mishap {
+    pub machine: usize,
+    pub reason: String,
+}
+
+impl Plant {
+    pub(super) fn landing(&self, item: usize, from: Point, ms: f64) -> Landing {
+        let falling = self.falling(item, from);
+        let (carrier, point) = fall::fall(self, &falling, ms);
+        Landing { item, falling, ms, carrier, point }
+    }
+
+    pub(super) fn mishap(&mut self, landing: &Landing) -> Option<Mishap> {
+        let machine = landing.carrier.machine()?;
+        let reason = if let Some(under) = self.is_in(landing) {
+            format!(
+                "{} comes down on {}, which lies there",
+                self.names.name(landing.item),
+                self.names.name(under)
+            )
+        } else if let Some(off) = self.tips_off(landing) {
+            format!("{} tips off {}", self.names.name(landing.item), self.names.name(off))
+        } else {
+            let under = self.lies_under(landing.item, &landing.carrier, landing.ms)?;
+            let [upper, lower] = [landing.item, under].map(|item| self.names.name(item));
+            format!("{upper} comes down on {lower}, which lies on a conveyor")
+        };
+        Some(Mishap { machine, reason })
+    }
+
+    /// An item at a place of the machine in which another one would be: where both places stack items, as they are turned,
+    /// else however they are turned.
+    fn is_in(&self, landing: &Landing) -> Option<usize> {
+        let Carrier::Place { machine, part, .. } = landing.carrier else { return None };
+        let working = &self.machines[machine];
+        let see = working.see(&self.items, &self.desk);
+        if working.upper(&landing.carrier, &self.items, &self.desk).is_some() {
+            return None;
+        }
+        let Falling { kind, turn, .. } = landing.falling;
+        let block = Block::new(self.sizes[kind], landing.point, turn);
+        let mut others = self.items.borne_by(machine).iter().copied().filter(|other| *other != landing.item);
+        others.find(|other| {
+            let Some(lies) = working.block(*other, landing.ms, &see) else { return false };
+            let of = self.items[*other].carrier.part().unwrap_or(part);
+            match [part, of].iter().all(|part| see.stack(*part).is_some()) {
+                true => block.is_in(&lies),
+                false => block.is_surely_in(&lies),
+            }
+        })
+    }
+
+    fn tips_off(&self, landing: &Landing) -> Option<usize> {
+        let Carrier::Place { machine, .. } = landing.carrier else { return None };
+        let working = &self.machines[machine];
+        let see = working.see(&self.items, &self.desk);
+        working.tips_off(&landing.falling, landing.point.z, landing.ms, &see)
+    }
+
+    /// An item on a conveyor on which another one comes down.
+    fn lies_under(&mut self, item: usize, carrier: &Carrier, ms: f64) -> Option<usize> {
+        self.convey(|conveying, among, _| conveying.lies_under(among, item, carrier, ms))
+    }
+}
