@@ -57,11 +57,13 @@ impl Plant {
         }
         let Falling { kind, turn, .. } = landing.falling;
         let block = Block::new(self.sizes[kind], landing.point, turn);
+        let stacks = |part: usize| see.stack(part).is_some();
+        let stacks_here = stacks(part);
         let mut others = self.items.borne_by(machine).iter().copied().filter(|other| *other != landing.item);
         others.find(|other| {
             let Some(lies) = working.block(*other, landing.ms, &see) else { return false };
             let of = self.items[*other].carrier.part().unwrap_or(part);
-            match [part, of].iter().all(|part| see.stack(*part).is_some()) {
+            match stacks_here && (of == part || stacks(of)) {
                 true => block.is_in(&lies),
                 false => block.is_surely_in(&lies),
             }
