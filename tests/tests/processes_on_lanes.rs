@@ -1,31 +1,13 @@
 //! Processes that work on items on a conveyor: the tester and the printer of the test station.
 
-use autogen::executor::Executor;
-use autogen_tests::{Texts, side_by_side};
-use runtime_sim::memory::Memory;
-use runtime_sim::report::Report;
-use runtime_sim::run::{Stepping, run_again};
+use autogen_tests::{Texts, side_by_side, stepped};
 
 fn station(changes: &[(&str, &str)]) -> Texts {
     side_by_side("scenes/test_station").replaced(changes)
 }
 
-/// However the run is stepped, it is the same.
-fn report(texts: &Texts) -> Report {
-    let project = texts.project();
-    let [every, events, checked] =
-        [Stepping::EveryScan, Stepping::Events, Stepping::Checked].map(|stepping| {
-            let mut executor = Executor::new(&project.system);
-            run_again(&project.plant, &mut executor, stepping, &mut Memory::default(), &mut |_| {})
-                .expect("a line that can be run")
-        });
-    assert_eq!(events, every);
-    assert_eq!(checked, every);
-    every
-}
-
 fn reason(changes: &[(&str, &str)]) -> String {
-    report(&station(changes)).reason
+    stepped::report(&station(changes), |_| {}).reason
 }
 
 const COLLECTED: &str = "all items collected";

@@ -22,16 +22,19 @@ fn flags_that_make_warnings_errors_are_those_of_the_user_s_own_code() {
     }
 }
 
+/// Of a line with an arm.
+fn results_of(folder: &Path, cache: &Path) -> Vec<u8> {
+    let layout = example("tending/tending.json");
+    let output = autogen_in(folder, cache, &["commission", &layout, "-o", "out", "--no-report"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    fs::read(folder.join("out/results.json")).expect("results")
+}
+
 #[test]
 fn what_a_run_has_found_is_kept_and_a_damaged_file_is_replaced() {
     let folder = folder("found");
     let cache = folder.join("cache");
-    let layout = example("tending/tending.json");
-    let run = || {
-        let output = autogen_in(&folder, &cache, &["commission", &layout, "-o", "out", "--no-report"]);
-        assert_eq!(status(&output), 0, "{}", errors(&output));
-        fs::read(folder.join("out/results.json")).expect("results")
-    };
+    let run = || results_of(&folder, &cache);
     let kept = || {
         let files = contents(&cache.join("autogen/runs-1"));
         assert_eq!(files.len(), 1);
@@ -56,11 +59,7 @@ fn what_a_run_has_found_is_kept_and_a_damaged_file_is_replaced() {
 fn what_was_not_used_for_longest_is_forgotten() {
     let folder = folder("forgotten");
     let cache = folder.join("cache");
-    let layout = example("tending/tending.json");
-    let run = || {
-        let output = autogen_in(&folder, &cache, &["commission", &layout, "-o", "out", "--no-report"]);
-        assert_eq!(status(&output), 0, "{}", errors(&output));
-    };
+    let run = || results_of(&folder, &cache);
     let runs = cache.join("autogen/runs-1");
     let write = |name: &Path, hours: u64| {
         let file = File::create(runs.join(name)).expect("a file");

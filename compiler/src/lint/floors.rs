@@ -2,20 +2,22 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::ir::System;
-use crate::layout::Layout;
+use crate::layout::{Layout, Object};
 use runtime_sim::kinematics::facing::Facing;
 use runtime_sim::line::Line;
 use runtime_sim::part::Primitive;
 use runtime_sim::part::place::Place;
+use std::collections::HashMap;
 
 /// Lengths and angles that differ by less are equal, m and degrees.
 const SAME: f64 = 1e-6;
 
 pub fn check(layout: &Layout, system: &System, line: &Line) -> Vec<Diagnostic> {
+    let turned = layout.objects.iter().filter(|object| object.pose.value.yaw != 0.0);
+    let turned: HashMap<&str, &Object> = turned.map(|object| (object.name.value.as_str(), object)).collect();
     let mut found = Vec::new();
     for (number, machine) in line.machines.iter().enumerate() {
-        let mut objects = layout.objects.iter();
-        let Some(object) = objects.find(|object| object.name.value == machine.name) else { continue };
+        let Some(object) = turned.get(machine.name.as_str()) else { continue };
         let turned = object.pose.value.yaw;
         for (part, made) in machine.parts.iter().enumerate() {
             let Primitive::Place(place) = &made.primitive else { continue };

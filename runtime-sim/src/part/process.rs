@@ -315,19 +315,10 @@ impl Cycle {
         self.becomes[kind]
     }
 
-    /// The item that is there, the first one of several.
-    fn item(&self, see: &See) -> Option<usize> {
-        match &self.crossing {
-            Some(crossing) => crossing.items(see).next(),
-            None => see.borne_by(self.process.on).next(),
-        }
-    }
-
-    fn is_there(&self, item: usize, see: &See) -> bool {
-        match &self.crossing {
-            Some(crossing) => crossing.items(see).any(|there| there == item),
-            None => see.borne_by(self.process.on).any(|there| there == item),
-        }
+    /// All that is at its place.
+    fn there(&self, see: &See) -> impl Iterator<Item = usize> {
+        let at_place = see.borne_by(self.process.on).filter(|_| self.crossing.is_none());
+        self.crossing.iter().flat_map(|crossing| crossing.items(see)).chain(at_place)
     }
 
     /// Whether an item moves that should not.
@@ -408,7 +399,7 @@ impl Running for Cycle {
 
     fn advance(&mut self, world: &mut World) -> Progress {
         if std::mem::take(&mut self.is_asked) && self.works.is_none() {
-            let item = self.item(&world.see());
+            let item = self.there(&world.see()).next();
             let lacks = self.lacks(item, world);
             match item.filter(|_| lacks.is_empty()) {
                 Some(item) => {
@@ -425,7 +416,7 @@ impl Running for Cycle {
             let kind = &self.kinds[see.items[item].kind];
             let crash = match () {
                 () if self.slides(item, &see) => Some(format!("a {kind} was moved during a process")),
-                () if self.is_there(item, &see) => None,
+                () if self.there(&see).any(|there| there == item) => None,
                 () if self.crossing.is_some() => Some(format!("a {kind} left a process before its end")),
                 () => Some(format!("a {kind} was taken from a process")),
             };

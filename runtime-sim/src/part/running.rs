@@ -112,18 +112,21 @@ impl<'a> World<'a> {
 
     /// A part of another item comes to lie at a place of the machine again.
     pub fn lay(&mut self, item: usize, part: usize, offset: Point) {
-        let carrier = Carrier::Place { machine: self.machine, part, offset };
-        let see = self.see();
-        let place = see.part(part).and_then(|place| place.place(item, &carrier, &see)).unwrap_or_default();
-        self.items.pass(item, carrier, place);
+        let (carrier, point) = self.at_place(item, part, offset);
+        self.items.pass(item, carrier, point);
     }
 
     /// An item at a place of the machine moves on it.
     pub fn shift(&mut self, item: usize, part: usize, offset: Point) {
+        let (carrier, point) = self.at_place(item, part, offset);
+        self.items.shift(item, carrier, point);
+    }
+
+    fn at_place(&self, item: usize, part: usize, offset: Point) -> (Carrier, Point) {
         let carrier = Carrier::Place { machine: self.machine, part, offset };
         let see = self.see();
-        let place = see.part(part).and_then(|place| place.place(item, &carrier, &see)).unwrap_or_default();
-        self.items.shift(item, carrier, place);
+        let point = see.part(part).and_then(|place| place.place(item, &carrier, &see)).unwrap_or_default();
+        (carrier, point)
     }
 
     /// The machine did what would break it: the run ends.
