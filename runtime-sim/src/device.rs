@@ -41,6 +41,9 @@ pub enum Stop {
 }
 
 impl PortType {
+    /// All whole numbers that a type of the language has.
+    pub const WHOLE: Self = Self::Int { lo: -i32::MAX, hi: i32::MAX };
+
     /// Numbers that one value takes in a process image.
     pub const fn words(self) -> usize {
         match self {

@@ -3,6 +3,7 @@
 use super::evaluate::Found;
 use super::panel;
 use super::program::{Part, Program, Scope, Setting, Symbol};
+use super::wires::known_or_none;
 use super::{Constant, Device, Form, Handover, Parameter, settle};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::layout::object::is_common;
@@ -293,7 +294,7 @@ impl Checker<'_> {
         for (name, _) in &part.settings {
             if !wanted.contains(&name.value.as_str()) {
                 let message = format!("`{}` has no parameter `{}`", part.kind.value, name.value);
-                self.report("E0703", name.span, message, format!("it has {}", wanted.join(", ")));
+                self.report("E0703", name.span, message, known_or_none("it has", &wanted));
             }
         }
         for lacking in wanted {
@@ -311,10 +312,10 @@ impl Checker<'_> {
     fn settings(&mut self, part: &ast::Part, schema: &'static Schema) {
         for (name, _) in &part.settings {
             if schema.setting(&name.value).is_none() {
-                let known = schema.settings.iter().map(|setting| setting.name);
-                let help = match suggestion(&name.value, known.clone()) {
+                let known: Vec<&str> = schema.settings.iter().map(|setting| setting.name).collect();
+                let help = match suggestion(&name.value, known.iter().copied()) {
                     Some(near) => format!("is `{near}` meant?"),
-                    None => format!("it has {}", known.collect::<Vec<_>>().join(", ")),
+                    None => known_or_none("it has", &known),
                 };
                 let message = format!("a {} has no setting `{}`", schema.name, name.value);
                 self.report("E0703", name.span, message, help);

@@ -175,9 +175,14 @@ impl Checker<'_> {
             self.report("E0707", name.span, message, known_or_none("its levels are", &known));
             return None;
         };
-        if !fits(schema.levels[level].ty, ty) || extent != Extent::One {
+        let given = schema.levels[level].ty;
+        let fits = fits(given, ty);
+        if !fits || extent != Extent::One {
             let message = format!("the level `{}` has another type than the output", name.value);
-            let help = format!("write `{}`", type_text(schema.levels[level].ty, Extent::One));
+            let help = match fits {
+                true => format!("it takes one value, not a list: write `{}`", type_text(ty, Extent::One)),
+                false => format!("write `{}`", type_text(given, Extent::One)),
+            };
             self.report("E0707", port.ty.span, message, help);
             return None;
         }
@@ -304,7 +309,7 @@ impl Checker<'_> {
     }
 }
 
-fn known_or_none(what: &str, known: &[&str]) -> String {
+pub(super) fn known_or_none(what: &str, known: &[&str]) -> String {
     if known.is_empty() { "it has none".into() } else { format!("{what} {}", known.join(", ")) }
 }
 

@@ -1,11 +1,11 @@
 //! Outputs that the automaton never writes, and parts of a device that do nothing unless they are driven, which neither an
 //! output nor a command drives.
 
-use crate::device::Device;
+use crate::device::{Device, type_text};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{Automaton, Model, Place};
 use crate::layout::Panel;
-use runtime_sim::device::Direction;
+use runtime_sim::device::{Direction, Extent};
 use runtime_sim::wiring::{Drives, Output};
 use std::collections::BTreeSet;
 
@@ -74,7 +74,10 @@ fn undriven(device: &Device) -> impl Iterator<Item = Diagnostic> {
         let all: Vec<&str> = levels.chain(schema.actions.iter().map(|action| action.name)).collect();
         let message = format!("nothing drives the {} `{name}`", schema.name);
         let help = match schema.levels.first() {
-            Some(level) => format!("such as `out {0}: bool = {name}.{0};`", level.name),
+            Some(level) => {
+                let ty = type_text(level.ty, Extent::One);
+                format!("such as `out {0}: {ty} = {name}.{0};`", level.name)
+            }
             None => format!("such as `command 1 {0}(...) = {name}.{0}(...);`", all[0]),
         };
         let diagnostic = Diagnostic::new("W0110", device.place_of(number)?, message)

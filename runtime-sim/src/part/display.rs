@@ -6,7 +6,7 @@ use crate::device::PortType;
 
 pub const SCHEMA: Schema = Schema {
     levels: &[
-        Level { name: "number", ty: PortType::Int { lo: i32::MIN, hi: i32::MAX } },
+        Level { name: "number", ty: PortType::WHOLE },
         Level { name: "value", ty: PortType::Real },
     ],
     ..Schema::new(

@@ -5,11 +5,8 @@ use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, Signal, Start};
 use crate::device::{Extent, PortType};
 
-/// The input that shows it has bounds of its own.
-const ANY: PortType = PortType::Int { lo: i32::MIN, hi: i32::MAX };
-
 pub const SCHEMA: Schema = Schema {
-    signals: &[Signal { name: "position", ty: ANY, extent: Extent::One }],
+    signals: &[Signal { name: "position", ty: PortType::WHOLE, extent: Extent::One }],
     operated: Some(Operated::SetNumber),
     ..Schema::new(
         "selector",
