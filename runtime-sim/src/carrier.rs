@@ -14,6 +14,8 @@ pub enum Carrier {
     Grip { machine: usize, part: usize, hang: Point },
     /// `offset` from the origin of what carries the place.
     Place { machine: usize, part: usize, offset: Point },
+    /// On another item, with which it goes on: `offset` from the middle of the underside of that, in its frame.
+    On { item: usize, offset: Point },
     /// On the ground, or on an obstacle.
     Floor { point: Point },
     /// It left a lane where that has a sink, `part` of the machine.
@@ -33,6 +35,7 @@ impl Carrier {
             | Carrier::Grip { machine, .. }
             | Carrier::Place { machine, .. } => Some(machine),
             Carrier::Supply
+            | Carrier::On { .. }
             | Carrier::Floor { .. }
             | Carrier::Sink { .. }
             | Carrier::Collector
@@ -47,6 +50,7 @@ impl Carrier {
                 Some(part)
             }
             Carrier::Supply
+            | Carrier::On { .. }
             | Carrier::Floor { .. }
             | Carrier::Sink { .. }
             | Carrier::Collector
@@ -59,6 +63,14 @@ impl Carrier {
     pub fn offset(&self) -> Option<Point> {
         match self {
             Carrier::Place { offset, .. } => Some(*offset),
+            _ => None,
+        }
+    }
+
+    /// The item that bears it.
+    pub fn item(&self) -> Option<usize> {
+        match self {
+            Carrier::On { item, .. } => Some(*item),
             _ => None,
         }
     }

@@ -169,6 +169,7 @@ mod tests {
                 size: [0.1, 0.1],
                 is: Vec::new(),
                 mass: 0.0,
+                deck: None,
             }],
             machines: (0..3).map(machine).collect(),
             obstacles: vec![],

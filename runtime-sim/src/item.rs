@@ -6,7 +6,8 @@ mod states;
 
 use crate::carrier::Carrier;
 use crate::event::{Event, Log, OrderChange};
-use crate::line::Line;
+use crate::frame::Frame;
+use crate::line::{Deck, Line};
 use crate::point::Point;
 use states::States;
 use std::collections::BTreeMap;
@@ -17,6 +18,14 @@ use std::sync::Arc;
 pub struct Item {
     pub kind: usize,
     pub carrier: Carrier,
+}
+
+/// Of the items of a kind, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// Along x and y as it appears on a belt, and upwards.
+    pub size: Point,
+    pub deck: Option<Deck>,
 }
 
 /// What the items of a line's supply are called.
@@ -62,6 +71,10 @@ pub struct Items {
     states: States,
     /// Of an item those that became parts of it, in the order in which they did.
     parts: BTreeMap<usize, Vec<usize>>,
+    /// Of an item those that lie on it, in the order in which they came.
+    loads: BTreeMap<usize, Vec<usize>>,
+    /// Of the kinds.
+    shapes: Arc<[Shape]>,
     /// Of an item how it is turned about the vertical on what bears it, rad; left out if it is not.
     turns: BTreeMap<usize, f64>,
     /// Items that each machine bears, in the order in which they came.
@@ -88,6 +101,8 @@ impl Items {
         Self {
             states: States::new(line.scenario.supply.iter().flat_map(|supply| supply.items.iter().copied())),
             parts: BTreeMap::new(),
+            loads: BTreeMap::new(),
+            shapes: line.kinds.iter().map(|kind| Shape { size: kind.lengths(), deck: kind.deck }).collect(),
             turns: BTreeMap::new(),
             borne: vec![Vec::new(); line.machines.len()],
             fallen: Vec::new(),
@@ -115,13 +130,54 @@ impl Items {
         self.parts.get(&of).cloned().unwrap_or_default()
     }
 
+    /// Without what lies on other items.
     pub fn borne_by(&self, machine: usize) -> &[usize] {
         &self.borne[machine]
     }
 
     /// Items that have a place on the line, in no order that means anything.
     pub fn placed(&self) -> impl Iterator<Item = usize> {
-        self.borne.iter().flatten().chain(&self.fallen).copied()
+        self.borne.iter().flatten().chain(&self.fallen).chain(self.loads.values().flatten()).copied()
+    }
+
+    /// Items that lie on this one, in the order in which they came.
+    pub fn loads_of(&self, item: usize) -> &[usize] {
+        self.loads.get(&item).map_or(&[], Vec::as_slice)
+    }
+
+    pub fn has_loads(&self) -> bool {
+        !self.loads.is_empty()
+    }
+
+    /// An item with all that lies on it, and on that, this one first.
+    pub fn with_loads(&self, item: usize) -> Vec<usize> {
+        let mut all = vec![item];
+        let mut next = 0;
+        while let Some(&item) = all.get(next) {
+            all.extend(self.loads_of(item));
+            next += 1;
+        }
+        all
+    }
+
+    /// The item at the bottom that bears this one, which is this one if it lies on no other.
+    pub fn base_of(&self, item: usize) -> usize {
+        let mut base = item;
+        while let Some(under) = self[base].carrier.item() {
+            base = under;
+        }
+        base
+    }
+
+    /// The frame of an item in that of the one at the bottom, with that one; both turned about the vertical.
+    pub fn on_base(&self, item: usize) -> (usize, Frame) {
+        let Carrier::On { item: under, offset } = self[item].carrier else { return (item, Frame::default()) };
+        let (base, frame) = self.on_base(under);
+        (base, frame.then(Frame::new(offset, self.turn(item).to_degrees())))
+    }
+
+    pub fn shape(&self, item: usize) -> Shape {
+        self.shapes[self[item].kind]
     }
 
     /// Number of machines that could bear items.
@@ -164,7 +220,23 @@ impl Items {
             self.parts.remove(&item);
             self.turns.remove(&item);
         }
+        if let Some(under) = from.item()
+            && let Some(loads) = self.loads.get_mut(&under)
+        {
+            loads.retain(|&other| other != item);
+            if loads.is_empty() {
+                self.loads.remove(&under);
+            }
+        }
+        if let Some(under) = to.item() {
+            self.loads.entry(under).or_default().push(item);
+        }
         self.log.push(Event::Item { scan: self.scan, item, from, to, point });
+        if to.is_final() {
+            for load in self.loads.remove(&item).unwrap_or_default() {
+                self.pass(load, to, point);
+            }
+        }
     }
 
     /// What bears an item bears it elsewhere.

@@ -5,7 +5,6 @@ mod faults;
 mod text;
 
 use crate::machine::Machine;
-use crate::part::process::Process;
 use crate::point::Point;
 pub use faults::{Answer, During, Jam, Pause, Refusal, Slip, SlowCycle, Stuck};
 
@@ -38,6 +37,17 @@ pub struct Kind {
     pub is: Vec<String>,
     /// kg.
     pub mass: f64,
+    /// On which other items lie, and with which they go on.
+    pub deck: Option<Deck>,
+}
+
+/// Where items lie on a pallet, on a tray or in a box. What is beyond it and higher is a wall all around.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deck {
+    /// Over the underside of what bears them, in metres.
+    pub height: f64,
+    /// Lengths along its x and y, in metres, around its middle.
+    pub size: [f64; 2],
 }
 
 impl Kind {
@@ -282,7 +292,7 @@ impl Line {
     /// Whether runs with other seeds may differ, with the same supply.
     pub fn is_drawn(&self) -> bool {
         matches!(self.io_delay, IoDelay::Random { max, .. } if max > 0)
-            || self.machines.iter().flat_map(Machine::processes).any(Process::is_drawn)
+            || self.machines.iter().flat_map(Machine::processes).any(|(_, process)| process.is_drawn())
     }
 
     /// Whether contact of these two, machines or obstacles, is no reason to end a run.

@@ -115,17 +115,10 @@ impl Machine {
         self.check_wiring()
     }
 
-    pub fn processes(&self) -> impl Iterator<Item = &Process> {
-        self.parts.iter().filter_map(|part| match &part.primitive {
-            Primitive::Process(process) => Some(process),
-            _ => None,
-        })
-    }
-
-    /// Those on lanes, by the numbers of their parts.
-    pub fn processes_on_lanes(&self) -> impl Iterator<Item = (usize, &Process)> {
+    /// By the numbers of their parts.
+    pub fn processes(&self) -> impl Iterator<Item = (usize, &Process)> {
         self.parts.iter().enumerate().filter_map(|(number, part)| match &part.primitive {
-            Primitive::Process(process) if process.at.is_some() => Some((number, process)),
+            Primitive::Process(process) => Some((number, process)),
             _ => None,
         })
     }

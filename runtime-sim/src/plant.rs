@@ -8,6 +8,7 @@ pub(crate) mod fall;
 mod faults;
 mod gripping;
 mod idle;
+mod loads;
 mod mishap;
 mod missed;
 mod phase;
@@ -68,6 +69,8 @@ pub struct Plant {
     grippers: Vec<(usize, usize)>,
     /// Machines with scanners.
     scanning: Vec<usize>,
+    /// Machines with places where items lie on one another.
+    stacking: Vec<usize>,
     /// Machines with faults.
     faulty: Vec<usize>,
     /// By machine.
@@ -101,9 +104,8 @@ impl Plant {
             .collect::<Result<Vec<_>, _>>()?;
         let images = machines.iter().map(|machine| vec![0.0; machine.input_words()]).collect();
         let faulty = (0..machines.len()).filter(|machine| machines[*machine].faults().exist()).collect();
-        let scanners = parts(line, |part| matches!(part, Primitive::Scanner(_)));
-        let mut scanning: Vec<usize> = scanners.map(|(machine, _)| machine).collect();
-        scanning.dedup();
+        let scanning = machines_with(line, |part| matches!(part, Primitive::Scanner(_)));
+        let stacking = machines_with(line, |part| matches!(part, Primitive::Place(place) if place.stacks));
         let names = Names::new(line);
         let removals = line.scenario.removals.iter();
         let removing = removals.map(|removal| Removing::new(removal, &names)).collect();
@@ -122,6 +124,7 @@ impl Plant {
             has_handed: false,
             grippers: parts(line, |part| matches!(part, Primitive::Grip(_))).collect(),
             scanning,
+            stacking,
             faulty,
             next_looks: vec![None; line.machines.len()],
             next_look: (0, f64::NEG_INFINITY),
@@ -204,6 +207,7 @@ impl Plant {
         self.wake_concerned(next_ms);
         self.scan = scan;
         self.has_handed = self.items.log().count() > logged;
+        self.spill(scan);
         self.sight();
         self.write_images();
     }
@@ -272,6 +276,9 @@ impl Plant {
     /// How an item is turned about the vertical since it came onto the line, to the left as seen from above, rad. Of one
     /// that lies on its side this says nothing.
     pub fn turn(&self, item: usize) -> f64 {
+        if self.items[item].carrier.item().is_some() {
+            return self.turn_of_load(item);
+        }
         let own = self.items.turn(item);
         if let Some(conveyed) = self.conveyed(item) {
             return conveyed.yaw(0.0, own.to_degrees()).to_radians();
@@ -295,7 +302,8 @@ impl Plant {
 
     /// Where the upper side of an item faces, a unit vector; none for up.
     pub fn upper(&self, item: usize) -> Option<Point> {
-        let carrier = &self.items.get(item)?.carrier;
+        self.items.get(item)?;
+        let carrier = &self.base_carrier(item);
         self.machines.get(carrier.machine()?)?.upper(carrier, &self.items, &self.desk)
     }
 
@@ -332,6 +340,7 @@ impl Plant {
     pub fn place(&self, item: usize) -> Option<Point> {
         match self.items.get(item)?.carrier {
             Carrier::Floor { point } => Some(point),
+            Carrier::On { .. } => self.place_of_load(item),
             carrier => {
                 let machine = self.machines.get(carrier.machine()?)?;
                 machine.place(item, &carrier, &self.items, &self.desk)
@@ -356,7 +365,8 @@ impl Plant {
 
     /// Where the vehicle on a track is that carries an item, and how it is turned.
     pub(crate) fn vehicle_under(&self, item: usize) -> Option<Frame> {
-        let Carrier::Place { machine, part, .. } = self.items.get(item)?.carrier else { return None };
+        self.items.get(item)?;
+        let Carrier::Place { machine, part, .. } = self.base_carrier(item) else { return None };
         self.machines.get(machine)?.vehicle_under(part).map(Driving::frame_now)
     }
 
@@ -368,13 +378,16 @@ impl Plant {
     /// How an item on a conveyor, or at a place that a cylinder or a positioner carries, continues from now.
     pub(crate) fn conveyed(&self, item: usize) -> Option<Conveyed> {
         let carrier = &self.items.get(item)?.carrier;
+        if carrier.item().is_some() {
+            return self.load_conveyed(item);
+        }
         let machine = self.machines.get(carrier.machine()?)?;
         machine.conveyed(item, carrier, &self.items, &self.desk, self.now_ms())
     }
 
     /// Whether two items lie on conveyors of which one leads onto the other.
     pub(crate) fn are_in_line(&self, items: [usize; 2]) -> bool {
-        let lane = |item: usize| match self.items[item].carrier {
+        let lane = |item: usize| match self.base_carrier(item) {
             Carrier::Lane { machine, part, .. } => Some((machine, part)),
             _ => None,
         };
@@ -467,6 +480,13 @@ fn working(machines: &mut [Working]) -> impl Iterator<Item = &mut Working> {
 pub fn outputs(line: &Line) -> Vec<Vec<f64>> {
     let kinds = line.kinds.len();
     line.machines.iter().map(|machine| vec![0.0; machine.wiring.output_words(kinds)]).collect()
+}
+
+/// Machines that have a part of which this holds.
+fn machines_with(line: &Line, wanted: impl Fn(&Primitive) -> bool) -> Vec<usize> {
+    let mut machines: Vec<usize> = parts(line, wanted).map(|(machine, _)| machine).collect();
+    machines.dedup();
+    machines
 }
 
 /// Numbers of machines and of their parts of which this holds.

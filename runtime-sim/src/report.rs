@@ -171,7 +171,10 @@ impl Report {
             id,
             name: names.name(id),
             kind: line.kinds[item.kind].name.clone(),
-            carrier: carrier_text(line, item.carrier),
+            carrier: match item.carrier.item() {
+                Some(under) => names.name(under),
+                None => carrier_text(line, item.carrier),
+            },
             place: plant.place(id).map_or_else(|| "-".into(), point_text),
         });
         let stands = outcome.stands_since.map(|scan| stands_text(seconds(scan)));
@@ -386,6 +389,7 @@ pub fn carrier_text(line: &Line, carrier: Carrier) -> String {
             Some(title) => format!("{title} of {}", name(machine)),
             None => name(machine).clone(),
         },
+        Carrier::On { .. } => "another item".into(),
         Carrier::Floor { .. } => "floor".into(),
         Carrier::Sink { .. } | Carrier::Collector => "collector".into(),
         Carrier::Part { .. } => "another item".into(),

@@ -1,6 +1,7 @@
 //! What the open orders lack, and where the parts are that they will not get.
 
 use crate::carrier::Carrier;
+use crate::item::Names;
 use crate::line::Line;
 use crate::plant::Plant;
 use crate::point::Point;
@@ -24,6 +25,7 @@ pub fn shortage(line: &Line, plant: &Plant) -> String {
             state_of(line, plant, machine, order)
         ));
     }
+    let names = Names::new(line);
     for (index, item) in plant.items().all().enumerate() {
         let kind = &line.kinds[item.kind].name;
         let on = |machine: usize, what: &str| format!("{what} of {}", line.machines[machine].name);
@@ -36,6 +38,7 @@ pub fn shortage(line: &Line, plant: &Plant) -> String {
                 }
             }
             Carrier::Grip { machine, .. } => on(machine, "the gripper"),
+            Carrier::On { item: under, .. } => names.name(under),
             _ => continue,
         };
         let place = plant.place(index).map_or(String::new(), |point| format!(" at {}", point_text(point)));
@@ -59,11 +62,12 @@ fn state_of(line: &Line, plant: &Plant, machine: usize, order: usize) -> String 
     for (kind, &wanted) in line.scenario.orders[order].parts.iter().enumerate() {
         let name = &line.kinds[kind].name;
         let items = plant.items();
-        let held = plant.items().borne_by(machine).iter().filter(|&&item| items[item].kind == kind).count();
+        let held = items.borne_by(machine).iter().flat_map(|item| items.with_loads(*item));
+        let held = held.filter(|item| items[*item].kind == kind).count();
         let wanted = wanted as usize;
         if held < wanted {
-            let to_come =
-                items.all().filter(|item| item.kind == kind && can_come(line, &item.carrier)).count();
+            let of_kind = (0..items.count()).filter(|item| items[*item].kind == kind);
+            let to_come = of_kind.filter(|item| can_come(line, &plant.base_carrier(*item))).count();
             let none_left = if to_come == 0 { " (none left)" } else { "" };
             lacks.push(match wanted - held {
                 1 => format!("{name}{none_left}"),
@@ -86,7 +90,8 @@ fn can_come(line: &Line, carrier: &Carrier) -> bool {
     match *carrier {
         Carrier::Supply | Carrier::Lane { .. } | Carrier::Grip { .. } => true,
         Carrier::Place { machine, part, .. } => !line.machines[machine].is_place_of_orders(part),
-        Carrier::Floor { .. }
+        Carrier::On { .. }
+        | Carrier::Floor { .. }
         | Carrier::Sink { .. }
         | Carrier::Collector
         | Carrier::Part { .. }

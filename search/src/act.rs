@@ -217,14 +217,24 @@ impl Scan<'_> {
         if self.model.watch == Watch::Everything {
             let tool = self.values.point(arm.tool.load(self.bytes));
             let (depth, below) = surface::fall(self.model, self.values, self.bytes, tool, kind);
+            let place = |machine: usize, place: usize| &self.model.machines[machine].places[place];
+            let stacks = match below {
+                Landing::Slot { machine, place: number, .. } | Landing::Beside { machine, place: number } => {
+                    place(machine, number).stacks
+                }
+                Landing::Zone { .. } | Landing::Elsewhere => false,
+            };
             if from == From::Tool
                 && depth > DEEP
+                && !stacks
                 && let Landing::Slot { machine: at, .. } | Landing::Beside { machine: at, .. } = below
             {
                 return Err(Violation::Dropped { arm: machine, machine: at });
             }
-            if let Landing::Slot { machine: at, place, slot } = landing {
-                let place = &self.model.machines[at].places[place];
+            if let Landing::Slot { machine: at, place: number, slot } = landing
+                && !place(at, number).stacks
+            {
+                let place = place(at, number);
                 if !place.by_kind && place.items[slot].load(self.bytes) != 0 {
                     return Err(Violation::ItemOnItem { arm: machine, machine: at, slot });
                 }
@@ -260,7 +270,7 @@ impl Scan<'_> {
                     items.count() as u32
                 };
                 let parts = self.model.orders[order].parts.iter().enumerate();
-                if parts.into_iter().any(|(kind, wanted)| count(kind) != *wanted) {
+                if !place.stacks && parts.into_iter().any(|(kind, wanted)| count(kind) != *wanted) {
                     return match self.model.watch {
                         Watch::Everything => Err(Violation::WrongItems { machine, order }),
                         Watch::Faults => Ok(()),

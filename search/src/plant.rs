@@ -202,6 +202,8 @@ pub struct Place {
     pub most: i32,
     /// Whether an item lies among its slots, where nobody looks for it; not where items are counted by kinds.
     pub stray: Option<Var>,
+    /// Items may lie on one another: what lies there is not known.
+    pub stacks: bool,
 }
 
 /// A signal that changes by itself: a truth, or a whole number of few values.

@@ -265,7 +265,7 @@ fn a_process_frees_the_parts_of_an_item() {
     assert!(base.1.is_some_and(|at| at.iter().all(|along| along.abs() < 0.01)), "{ends:?}");
 
     let none = reason(&taken_apart("slots: [point(0, 0, 0)]"));
-    assert_eq!(none, "interlock of assembler: a process has no free slot for a lid");
+    assert_eq!(none, "interlock of assembler: the process open has no free slot for a lid");
 }
 
 #[test]
@@ -286,5 +286,5 @@ fn a_press_joins_what_lies_in_it_and_nothing_less() {
     let lid = "move(lid_at + up(0.2)); move(lid_at); grip := true; until attached at most 1 s; move(lid_at + up(0.2));
         move(nest_at + up(0.2)); move(nest_at + up(0.101)); grip := false; until not attached at most 1 s;";
     let without = reason(&changed("assembler", &[(lid, "")]));
-    assert_eq!(without, "interlock of assembler: a process was started without a lid beside it");
+    assert_eq!(without, "interlock of assembler: the process press was started without a lid beside it");
 }

@@ -462,8 +462,9 @@ fn recorded_paths_are_where_the_items_are() {
         let mut seen = Vec::new();
         let mut observe = |scan: &Seen| {
             let items = scan.plant.items();
-            let places: Vec<_> =
-                items.all().enumerate().map(|(i, item)| (item.carrier, scan.plant.place(i))).collect();
+            // What lies on an item is on what bears that.
+            let place = |item: usize| (scan.plant.base_carrier(item), scan.plant.place(item));
+            let places: Vec<_> = (0..items.count()).map(place).collect();
             seen.push((scan.scan * u64::from(project.plant.scan_ms), places));
         };
         let mut executor = Executor::new(&project.system);

@@ -594,7 +594,7 @@ fn what_a_process_needs_is_there_when_it_starts() {
         texts.layout = texts.layout.replacen('{', r#"{"scan_ms": 100, "#, 1);
         run(&texts, |_| {}).report.reason
     };
-    let lacks = "interlock of it: a process was started without its clamp out";
+    let lacks = "interlock of it: the process press was started without its clamp out";
     let together = "state Runs { when after 5 s -> Works { hold_down := true; start := true; } }
         state Works { when ended -> Done {} }";
     assert_eq!(reason(together), lacks);

@@ -165,7 +165,7 @@ fn a_mill_that_is_started_with_its_door_open_ends_the_run() {
     texts.specs[0] = texts.specs[0].replace("when door_closed -> Starting", "when true -> Starting");
     let report = run(texts, &mut |_: &Seen| {});
     assert!(!report.finished);
-    assert_eq!(report.reason, "interlock of mill: a process was started without its door in");
+    assert_eq!(report.reason, "interlock of mill: the process cycle was started without its door in");
 }
 
 /// Twenty modules in a loop with a feed and two exits: nothing is stuck, nothing touches, and items go round that find

@@ -29,6 +29,7 @@ mod late_signals;
 mod layout;
 mod limits;
 mod lines;
+mod loads;
 mod looking_ahead;
 mod margins;
 mod missed;

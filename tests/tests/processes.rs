@@ -137,20 +137,28 @@ fn an_item_that_is_taken_before_the_end_is_a_crash() {
         run_again(&project.plant, &mut executor, stepping, &mut Memory::default(), &mut |_| {})
             .expect("a line that can be run")
     });
-    assert_eq!(reports[0].reason, "interlock of mill: a blank was taken from a process");
+    assert_eq!(
+        reports[0].reason,
+        "interlock of mill: a blank was taken from the process cycle before its end"
+    );
     assert!(reports.iter().all(|report| *report == reports[0]), "{reports:?}");
 }
 
 #[test]
 fn a_kind_without_a_time_is_a_crash() {
     let reason = |kinds: &str| {
-        let project = cell(&format!("kinds: [{kinds}]; time: [20 s];"), "").project();
+        let cell = cell(&format!("kinds: [{kinds}]; time: [20 s];"), "");
+        let makes = format!("makes: [{kinds}, bracket]");
+        let project = cell.replaced(&[("makes: [blank, bracket]", &makes)]).project();
         let mut executor = Executor::new(&project.system);
         let report =
             run_again(&project.plant, &mut executor, Stepping::Events, &mut Memory::default(), &mut |_| {});
         report.expect("a line that can be run").reason
     };
-    assert_eq!(reason("bracket"), "interlock of mill: a process was started without a time for a blank");
+    assert_eq!(
+        reason("bracket"),
+        "interlock of mill: the process cycle was started without a time for a blank"
+    );
     assert_eq!(reason("blank"), "time limit reached");
 }
 

@@ -184,7 +184,7 @@ fn what_is_let_go_beside_the_chuck_falls() {
         "constant grip_at: point unit \"m\" = origin * point(0 - length, 0, face)",
         "constant grip_at: point unit \"m\" = origin * point(0 - length - 0.02, 0, face)",
     )];
-    assert_eq!(reason(&beside), "interlock of lathe: a process was started without an item");
+    assert_eq!(reason(&beside), "interlock of lathe: the process cycle was started without an item");
 }
 
 #[test]

@@ -65,7 +65,7 @@ fn what_a_process_leaves_without_support_ends_the_run() {
     let narrow = ("floor_x: [-0.4, 0.4]", "floor_x: [-0.4, -0.05]");
     let press = ("time: 2 s;", "time: 2 s; makes: [long, short];");
     let texts = line("chute", &kinds, &["long", "wide"], "").replaced(&[narrow, press]);
-    assert_eq!(ends(&texts).0, "interlock of chute: a wide tips off in a process");
+    assert_eq!(ends(&texts).0, "interlock of chute: a wide tips off in the process press");
 }
 
 #[test]
@@ -134,8 +134,62 @@ fn a_part_that_two_places_of_a_machine_bear_stays_or_tips() {
         ends(&texts.clone().replaced(&[(all, &*spots), ("when spot = 1", "when spot = 2")]))
     };
     let heights = vec![Some(150.0), Some(150.0), Some(250.0)];
-    assert_eq!(third("point(0.77, 0, 0.251)"), (FINISHED.into(), heights));
+    assert_eq!(third("point(0.77, 0, 0.251)"), (FINISHED.into(), heights.clone()));
     assert_eq!(third("point(0.77, 0.2, 0.251)").0, "interlock of cell: box_3 tips off box_1");
+    // Of two machines it is so in any order, and a person takes neither of the lower two.
+    let shelf = format!(
+        "device shelf {{ {} }}\nautomaton Shelf on shelf {{ initial -> Standing {{}} final state Standing; }}\n",
+        half("near", -0.15)
+    );
+    let near = half("near", -0.15);
+    let robots = ["cell", "shelf"]
+        .map(|name| format!(r#"{{"name": "{name}", "type": "{name}", "pose": [0, 0, 0, 0]}}"#));
+    for (robots, removed) in
+        [([0, 1], "box_1"), ([1, 0], "box_2")].map(|(order, item)| (order.map(|it| &robots[it][..]), item))
+    {
+        let mut texts = texts.clone().replaced(&[(&*near, "")]);
+        texts.specs[0] += &shelf;
+        texts.layout = format!(r#"{{"robots": [{}]}}"#, robots.join(", "));
+        let operator =
+            format!(r#""time_limit_s": 60, "operator": [{{"remove": "{removed}", "at_s": 50}}], "#);
+        let texts = texts.replaced(&[
+            (r#""time_limit_s": 60, "#, &*operator),
+            (
+                "[point(1.15, 0, 0.251), point(1.32, 0, 0.351), point(1.15, 0, 0.351)]",
+                "[point(1.23, 0, 0.251), point(0.77, 0, 0.251), point(0.97, 0, 0.351)]",
+            ),
+            ("when spot = 1", "when spot = 2"),
+        ]);
+        assert_eq!(ends(&texts), (FINISHED.into(), heights.clone()), "{removed}");
+    }
+}
+
+/// A press joins three parts, and takes them apart again onto its slots.
+#[test]
+fn what_a_process_frees_lies_where_it_can() {
+    let kinds = [("base", 0.10, SIZE), ("cap", 0.02, SIZE), ("lid", 0.02, SIZE)];
+    let freed = |slots: &str| {
+        let slots = format!("slots: [point(0.15, 0, 0), {slots}]");
+        let texts = line("chute", &kinds, &["base", "cap", "lid"], "");
+        ends(&texts.replaced(&[
+            ("slots: [point(0.15, 0, 0)]", &*slots),
+            (
+                "part press = process { on: pallet; time: 2 s; };",
+                "part press = process { on: pallet; time: 2 s; joins: [cap, lid]; };
+                part open = process { on: pallet; time: 1 s; frees: true; };",
+            ),
+            ("out start:", "out undo: bool = open.start stop false;\n    out start:"),
+            ("when after 5 s -> Ended { start := false; }", "when after 5 s -> Ended { undo := true; }"),
+        ]))
+    };
+    let heights = |caps: [f64; 2]| vec![Some(150.0), Some(caps[0]), Some(caps[1])];
+    assert_eq!(freed("point(0.45, 0, 0), point(0.75, 0, 0)"), (FINISHED.into(), heights([150.0; 2])));
+    // They come down on what is below.
+    assert_eq!(freed("point(0.45, 0, 0.3), point(0.45, 0, 0.7)"), (FINISHED.into(), heights([150.0, 170.0])));
+    let into = "interlock of chute: the process open lays a lid into a cap";
+    assert_eq!(freed("point(0.45, 0, 0), point(0.55, 0, 0)").0, into);
+    let beside = "interlock of chute: the process open lays a cap beside its place";
+    assert_eq!(freed("point(1.5, 0, 0), point(2.65, 0, 0)").0, beside);
 }
 
 #[test]
@@ -176,6 +230,6 @@ fn a_process_that_makes_an_item_wider_moves_it_into_no_other_one() {
         let changes: Vec<(&str, &str)> = changes.iter().map(|(from, to)| (*from, &**to)).collect();
         ends(&line("cell", &kinds, &["box"; 2], "").replaced(&changes)).0
     };
-    assert_eq!(end("point(1.15, 0.2, 0.251)"), "interlock of cell: a process moves a big into a box");
+    assert_eq!(end("point(1.15, 0.2, 0.251)"), "interlock of cell: the process press moves a big into a box");
     assert_eq!(end("point(1.15, 0.28, 0.251)"), FINISHED);
 }

@@ -161,6 +161,31 @@ fn a_fault_is_found_and_its_course_is_the_shortest() {
     assert!(replay.report.reason.starts_with("fault "), "{}", replay.report.reason);
 }
 
+/// All places of the table are one.
+#[test]
+fn what_is_put_onto_an_item_where_items_stack_is_no_violation() {
+    let found = |stacks: &str| {
+        let piled = format!("slots: grid(point(0, 0, 0.725), 3, 0, 4, 0); by_kind: false;{stacks}");
+        let from = "slots: grid(point(-0.2, -0.18, 0.725), 3, 0.20, 4, 0.12); by_kind: false;";
+        // It takes both parts before it offers one.
+        let both =
+            ("when not held, first i in", "when not held and slot[0] = Full and slot[1] = Full, first i in");
+        let project = with_library(TWO_PARTS, "devices/bin", from, &piled).replaced(&[both]).project();
+        search(&model_of(&project, Faults::None), &BOUNDS)
+    };
+    let flat = found("");
+    let [(violation, _)] = &flat.violations[..] else { panic!("{:?}", flat.violations) };
+    assert!(matches!(violation, Violation::ItemOnItem { .. } | Violation::Dropped { .. }), "{violation:?}");
+    let stacked = found(" stacks: true;");
+    let is_put = |violation: &Violation| {
+        matches!(
+            violation,
+            Violation::ItemOnItem { .. } | Violation::Dropped { .. } | Violation::ItemAmongItems { .. }
+        )
+    };
+    assert!(!stacked.violations.iter().any(|(violation, _)| is_put(violation)), "{:?}", stacked.violations);
+}
+
 #[test]
 fn a_search_that_is_cut_proves_nothing() {
     let model = model_of(&buffer(TWO_PARTS).project(), Faults::None);

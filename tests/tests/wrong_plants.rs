@@ -128,6 +128,61 @@ fn a_beam_for_a_word_that_no_kind_has() {
     );
 }
 
+/// Only where a kind of the scenario is nearly meant: devices are for several scenarios.
+#[test]
+fn a_process_for_a_kind_that_is_misspelt() {
+    let process = |settings: &str| {
+        let press = format!("part press = process {{ on: belt; at: 0.5; time: 1 s; {settings} }};");
+        let driven = "out start: bool = press.start stop false;";
+        told(&with_belt(1.0, &format!("part store = sink {{ of: belt; inset: 0; }}; {press} {driven}")), BOX)
+    };
+    for settings in [
+        "kinds: [bux];",
+        "makes: [bux, box];",
+        "rejects: [bux, box]; shares: [0.5];",
+        "rejects: [box, bux]; shares: [0.5];",
+        "joins: [bux];",
+    ] {
+        let found = process(settings);
+        let message = "W0206 4:57 no kind of the scenario is `bux`, which `press` names [kinds of the scenario are box]";
+        assert!(found.iter().any(|found| found == message), "{settings}: {found:?}");
+    }
+    for settings in ["kinds: [box];", "kinds: [cover];", "makes: [cover, lid];"] {
+        let found = process(settings);
+        assert!(!found.iter().any(|found| found.contains("W0206")), "{settings}: {found:?}");
+    }
+}
+
+#[test]
+fn what_a_process_says_of_kinds_can_happen() {
+    let of = |settings: &str| -> Vec<String> {
+        let press = format!("part press = process {{ on: belt; at: 0.5; time: 1 s; {settings} }};");
+        let store = "part store = sink { of: belt; inset: 0; };";
+        let found =
+            told(&with_belt(1.0, &format!("{store} {press} out start: bool = press.start stop false;")), BOX);
+        found.into_iter().filter(|found| found.starts_with("E0704")).collect()
+    };
+    for (settings, message) in [
+        ("kinds: [box]; makes: [box, lid];", ""),
+        ("kinds: [];", "kinds is an empty list: name kinds, or leave it out for all kinds"),
+        ("kinds: [lid]; makes: [box, lid];", "makes says what becomes of box, which is not among the kinds"),
+        (
+            "kinds: [lid]; rejects: [box, lid]; shares: [0.5];",
+            "rejects says what becomes of box, which is not among the kinds",
+        ),
+        ("makes: [box, lid, box, cup];", "the setting makes says twice what becomes of box"),
+        ("rejects: [box, box]; shares: [0.5];", "rejects says that some of box become box"),
+        ("rejects: [box, lid]; shares: [2];", "a share is a number from 0 to 1, not 2"),
+        ("makes: [box, lid, cup];", "the setting makes names cup without what becomes of it"),
+    ] {
+        let found = of(settings);
+        match message {
+            "" => assert_eq!(found, [""; 0]),
+            message => assert!(found.len() == 1 && found[0].contains(message), "{settings}: {found:?}"),
+        }
+    }
+}
+
 #[test]
 fn numbers_beyond_the_limits_of_settings() {
     let store = "part store = sink { of: belt; inset: 0; };";

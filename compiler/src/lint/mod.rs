@@ -11,6 +11,7 @@ mod implies;
 mod lanes;
 mod moving;
 mod overwritten;
+mod processes;
 mod undriven;
 mod unused;
 
@@ -45,6 +46,7 @@ pub fn warnings(checked: &Checked, files: &[(FileId, ast::File)], panel: Panel) 
 pub fn of_layout(layout: &Layout, system: &System, line: &Line) -> Vec<Diagnostic> {
     let mut found = lanes::check(layout, system, line);
     found.extend(beams::check(system, line));
+    found.extend(processes::check(system, line));
     found.extend(driven::check(layout, line));
     found.extend(floors::check(layout, system, line));
     diagnostic::sort(&mut found);

@@ -220,7 +220,7 @@ fn made_at(line: &Line, spot: Spot, kind: usize) -> impl Iterator<Item = usize> 
         Spot::Lane(_, lane) => process.at.is_some() && process.on == lane,
         Spot::Machine(_) => process.at.is_none(),
     };
-    made_by(line, line.machines[machine].processes().filter(is_here), kind)
+    made_by(line, line.machines[machine].processes().map(|(_, process)| process).filter(is_here), kind)
 }
 
 /// The kinds that one becomes by these processes.

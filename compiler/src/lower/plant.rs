@@ -73,7 +73,7 @@ pub fn resolve(
         })
         .collect();
     let processes = machines.iter().flat_map(Machine::processes);
-    let made: Vec<&str> = processes.flat_map(|process| process.made()).map(|[_, to]| to).collect();
+    let made: Vec<&str> = processes.flat_map(|(_, process)| process.made()).map(|[_, to]| to).collect();
     scenario::resolve(
         scenario,
         &scenario::Line {
@@ -122,6 +122,7 @@ pub fn line(
                 grasp: kind.grasp,
                 size: kind.size,
                 mass: kind.mass,
+                deck: kind.deck,
                 is: kind.is.iter().map(|word| word.value.clone()).collect(),
             })
             .collect(),

@@ -9,7 +9,8 @@ pub fn items(of: &role::Line, line: &Line) -> Vec<Diagnostic> {
     let size = |name: &str| line.kinds.iter().find(|kind| kind.name == name).map(|kind| kind.size);
     let mut found = Vec::new();
     for (number, machine) in line.machines.iter().enumerate() {
-        for (part, process) in machine.processes_on_lanes() {
+        let on_lanes = machine.processes().filter(|(_, process)| process.at.is_some());
+        for (part, process) in on_lanes {
             for [from, to] in process.made() {
                 let (Some(before), Some(after)) = (size(from), size(to)) else { continue };
                 if before == after {

@@ -14,7 +14,7 @@ pub use resolve::{Input, Line, MachinePart, Panel, resolve};
 pub use supply::Drawn;
 
 use crate::source::{FileId, Sources, Span, Spanned};
-use runtime_sim::line::LineButton;
+use runtime_sim::line::{Deck, LineButton};
 
 /// Parts that the belts bring: more than a plant could bring in the longest time limit.
 const MOST_PARTS: u64 = 1_000_000;
@@ -60,6 +60,7 @@ pub struct Kind {
     pub is: Vec<Spanned<String>>,
     /// kg.
     pub mass: f64,
+    pub deck: Option<Deck>,
 }
 
 #[derive(Clone, Debug, PartialEq)]

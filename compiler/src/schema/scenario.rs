@@ -52,6 +52,21 @@ fn parts(most: u32) -> Value {
 fn kind() -> Value {
     let (lengths, masses) = (kinds::LENGTHS, kinds::MASSES);
     let length = || number(*lengths.start(), *lengths.end());
+    let deck = object(
+        vec![
+            property(
+                "height",
+                number(0.0, *lengths.end()),
+                "How far over its underside they lie, m. Without it: on its upper side. What is higher is a wall all around",
+            ),
+            property(
+                "size",
+                tuple(&[length(), length()]),
+                "Lengths along its x and y on which they lie, m, around its middle. Without it: its own",
+            ),
+        ],
+        &[],
+    );
     let all = vec![
         property("name", name(), "Its name"),
         property("height", length(), "Height over what it lies on, m"),
@@ -67,6 +82,7 @@ fn kind() -> Value {
         ),
         property("is", list(text()), "Words that sensors detect, such as metal"),
         property("mass", number(*masses.start(), *masses.end()), "kg. Without it: 0.1"),
+        property("bears", deck, "Other items lie on it and go on with it: a pallet, a tray, a box"),
     ];
     object(all, &["name", "height"])
 }

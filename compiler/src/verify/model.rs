@@ -179,7 +179,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         cylinders: changing.cylinders,
         processes: changing.processes,
         orders,
-        hides_items: line.machines.iter().any(hides_items),
+        hides_items: line.machines.iter().any(|machine| hides_items(line, machine)),
         carries_hidden_items: line.machines.iter().any(carries_hidden_items),
         heights: line.kinds.iter().map(|kind| kind.height).collect(),
         grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),

@@ -231,6 +231,7 @@ pub fn plant(
                     items: items.collect(),
                     most: more as i32,
                     stray: (!place.by_kind).then(|| memory.number(number, name("(stray)"), 1, 0)),
+                    stacks: stacks(line, place),
                 });
             }
             Primitive::Orders(orders) => {
@@ -288,13 +289,18 @@ pub fn is_commanded(machine: &Machine, part: usize) -> bool {
     commands.iter().any(|command| command.part == part) && !has_rate
 }
 
-/// Whether items may be somewhere that is not searched: on a conveyor without commands, or at such a place.
-pub fn hides_items(machine: &Machine) -> bool {
+/// Whether items may be somewhere that is not searched: on a conveyor without commands, at such a place, or on other items.
+pub fn hides_items(line: &Line, machine: &Machine) -> bool {
     machine.parts.iter().enumerate().any(|(number, part)| match &part.primitive {
         Primitive::Lane(_) => !is_commanded(machine, number),
-        Primitive::Place(place) => !is_known(machine, place),
+        Primitive::Place(place) => !is_known(machine, place) || stacks(line, place),
         _ => false,
     })
+}
+
+/// Whether items may lie on one another there.
+fn stacks(line: &Line, place: &runtime_sim::part::place::Place) -> bool {
+    place.stacks || line.kinds.iter().any(|kind| kind.deck.is_some())
 }
 
 /// Whether one of the places at which items are not searched is carried.

@@ -5,7 +5,7 @@ mod operator;
 
 use crate::ir::System;
 use faults::Faults;
-use runtime_sim::line::{Collected, During, Goal, Kind, Line, Order, Scenario, Supply};
+use runtime_sim::line::{Collected, Deck, During, Goal, Kind, Line, Order, Scenario, Supply};
 use serde_json::{Map, Value, json};
 
 /// The scenario of a line, as `commission` reads it: the line has the same scenario again. Orders without end cannot be
@@ -52,10 +52,13 @@ pub fn text(system: &System, line: &Line) -> String {
 }
 
 fn kind(kind: &Kind) -> Value {
-    let Kind { name, height, grasp, size, is, mass } = kind;
+    let Kind { name, height, grasp, size, is, mass, deck } = kind;
     let mut value = json!({"name": name, "height": height, "size": size, "is": is, "mass": mass});
     if grasp != height {
         value["grasp"] = json!(grasp);
+    }
+    if let Some(Deck { height, size }) = deck {
+        value["bears"] = json!({"height": height, "size": size});
     }
     value
 }

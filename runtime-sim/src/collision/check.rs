@@ -8,21 +8,20 @@
 //! What comes so near that it could be in contact is checked scan by scan.
 
 use super::TOLERANCE;
-use super::body::Piece;
 use super::group::{Anchor, Group, Kind, Outer};
+use super::load;
 use super::pair::{AT_ONCE, Known, Pair, Span, Touch};
 use crate::carrier::Carrier;
 use crate::event::Event;
 use crate::fingerprint::Fingerprint;
-use crate::item::Names;
+use crate::item::{self, Names};
 use crate::kinematics::facing::Facing;
 use crate::kinematics::pose::Pose;
-use crate::line::{self, Line};
+use crate::line::Line;
 use crate::memory::Memory;
 use crate::part::place::OPPOSITE;
 use crate::plant::Plant;
 use crate::point::Point;
-use crate::solid::Shape;
 use std::collections::BTreeMap;
 
 /// That two came into contact.
@@ -60,8 +59,6 @@ pub struct CollisionCheck {
     /// Items that have appeared, without those that are gone for good.
     items: BTreeMap<usize, Tracked>,
     names: Names,
-    /// Of the kinds.
-    sizes: Vec<Point>,
     /// Events that were handled.
     read: usize,
     contacts: Vec<Contact>,
@@ -73,8 +70,7 @@ pub struct CollisionCheck {
 /// An item: how large it is, how it is turned, and where it is among the bodies.
 #[derive(Clone, Debug)]
 struct Tracked {
-    /// Lengths along its own x, y and z.
-    size: Point,
+    shape: item::Shape,
     /// About the vertical, since it appeared; while it hangs, that of the moment it was gripped.
     turn: f64,
     /// In the world, as it hung or lies, if its upper side does not face up.
@@ -86,8 +82,8 @@ struct Tracked {
 }
 
 impl Tracked {
-    fn new(size: Point) -> Self {
-        Self { size, turn: 0.0, tipped: Pose::IDENTITY, place: None, hang: Pose::IDENTITY }
+    fn new(shape: item::Shape) -> Self {
+        Self { shape, turn: 0.0, tipped: Pose::IDENTITY, place: None, hang: Pose::IDENTITY }
     }
 }
 
@@ -107,11 +103,9 @@ impl CollisionCheck {
             let all = pairs.iter().enumerate();
             all.filter(|(_, pair)| pair.groups.contains(&group)).map(|(number, _)| number).collect()
         };
-        let sizes: Vec<Point> = line.kinds.iter().map(line::Kind::lengths).collect();
         Self {
             items: BTreeMap::new(),
             names: Names::new(line),
-            sizes,
             versions: vec![None; groups.len()],
             reaches: vec![Outer::NOTHING; groups.len()],
             pairs_of: (0..groups.len()).map(pairs_of).collect(),
@@ -278,30 +272,48 @@ impl CollisionCheck {
         let log = plant.items().log();
         for event in log.since(self.read) {
             match *event {
-                Event::Item { item, to, .. } => {
+                Event::Item { item, from, to, .. } => {
                     self.leave(item, plant);
                     // What was passed on since is followed with its own event.
                     if plant.items()[item].carrier == to {
+                        if from.item().is_some() {
+                            self.track(item, plant).turn = plant.turn(item);
+                        }
                         self.come(item, to, plant);
                     }
                     if to.is_gone() {
                         self.items.remove(&item);
                     }
+                    for under in [from, to].into_iter().filter_map(|carrier| carrier.item()) {
+                        self.load(under, plant);
+                    }
                 }
-                Event::Kind { item, kind, .. } => self.remake(item, self.sizes[kind], plant),
+                Event::Kind { item, .. } => self.remake(item, plant),
                 _ => {}
             }
         }
         self.read = log.count();
     }
 
-    fn remake(&mut self, item: usize, size: Point, plant: &Plant) {
+    fn track(&mut self, item: usize, plant: &Plant) -> &mut Tracked {
+        self.items.entry(item).or_insert_with(|| Tracked::new(plant.items().shape(item)))
+    }
+
+    fn remake(&mut self, item: usize, plant: &Plant) {
         let Some(tracked) = self.items.get_mut(&item) else { return };
-        if std::mem::replace(&mut tracked.size, size) == size || tracked.place.is_none() {
-            return;
+        let shape = plant.items().shape(item);
+        if std::mem::replace(&mut tracked.shape, shape) != shape {
+            self.load(item, plant);
         }
-        self.leave(item, plant);
-        self.come(item, plant.items()[item].carrier, plant);
+    }
+
+    /// What lies on an item, or what it is itself, has changed: all above one another are one body.
+    fn load(&mut self, item: usize, plant: &Plant) {
+        let base = plant.items().base_of(item);
+        if self.items.get(&base).is_some_and(|tracked| tracked.place.is_some()) {
+            self.leave(base, plant);
+            self.come(base, plant.items()[base].carrier, plant);
+        }
     }
 
     fn leave(&mut self, item: usize, plant: &Plant) {
@@ -331,9 +343,8 @@ impl CollisionCheck {
     fn come(&mut self, item: usize, to: Carrier, plant: &Plant) {
         // Groups of machines stand in the order of the machines.
         let (Some(index), Some(place)) = (to.machine(), plant.place(item)) else { return };
-        let group = &mut self.groups[index];
-        let size = self.sizes[plant.items()[item].kind];
-        let tracked = self.items.entry(item).or_insert_with(|| Tracked::new(size));
+        self.track(item, plant);
+        let (group, Some(tracked)) = (&mut self.groups[index], self.items.get_mut(&item)) else { return };
         let upper = plant.upper(item);
         let lies = match upper {
             Some(upper) => Pose { position: place, ..lying_on_its_side(&tracked.tipped, upper) },
@@ -359,14 +370,15 @@ impl CollisionCheck {
                 }
             }
         };
-        let middle = Pose { position: Point::new(0.0, 0.0, tracked.size.z / 2.0), ..Pose::IDENTITY };
-        let shape = Shape::Box { size: tracked.size };
-        let piece = Piece::new(self.names.name(item), &frame.then(&middle), shape);
-        let size = [tracked.size.x, tracked.size.y, tracked.size.z, tracked.turn];
+        let pieces = load::pieces(item, &frame, &self.names, plant);
+        let Point { x, y, z } = tracked.shape.size;
+        let size = [x, y, z, tracked.turn];
         let turned = frame.rotation.into_iter().flatten();
         let hang = [frame.position.x, frame.position.y, frame.position.z];
-        let item = size.into_iter().chain(turned).chain(hang).fold(Fingerprint::default(), Fingerprint::near);
-        let body = group.add_item(anchor, piece, item, plant);
+        let print =
+            size.into_iter().chain(turned).chain(hang).fold(Fingerprint::default(), Fingerprint::near);
+        let print = load::with_loads(item, print, plant);
+        let body = group.add_item(anchor, pieces, print, plant);
         tracked.place = Some((index, body));
         self.expect(index, body);
     }

@@ -203,8 +203,14 @@ impl Group {
         }
     }
 
-    /// Adds an item that comes to lie or to hang here; the number of its body.
-    pub fn add_item(&mut self, anchor: Anchor, piece: Piece, item: Fingerprint, plant: &Plant) -> usize {
+    /// Adds an item that comes to lie or to hang here, with what lies on it; the number of its body.
+    pub fn add_item(
+        &mut self,
+        anchor: Anchor,
+        pieces: Vec<Piece>,
+        item: Fingerprint,
+        plant: &Plant,
+    ) -> usize {
         self.forget();
         let mut body = match (anchor, &self.kind) {
             (
@@ -214,9 +220,9 @@ impl Group {
                 let place = plant.place(item).unwrap_or_default();
                 let offset = place - plant.position(*index).unwrap_or_default();
                 let conveyed = plant.conveyed(item);
-                self.body(anchor, vec![piece], |ball| extent::lying(machine, ball, place, offset, conveyed))
+                self.body(anchor, pieces, |ball| extent::lying(machine, ball, place, offset, conveyed))
             }
-            _ => self.body(anchor, vec![piece], BoundingBox::around),
+            _ => self.body(anchor, pieces, BoundingBox::around),
         };
         body.item = Some(item);
         match self.bodies.iter().position(Option::is_none) {

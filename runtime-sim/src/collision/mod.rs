@@ -14,6 +14,7 @@ mod check;
 mod driven;
 mod free;
 mod group;
+mod load;
 mod movement;
 mod pair;
 mod paths;

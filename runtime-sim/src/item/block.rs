@@ -1,6 +1,7 @@
 //! The upright box that an item takes up where it stands.
 
 use super::footprint::{Footprint, TOUCHES};
+use crate::frame::Frame;
 use crate::point::Point;
 
 /// Upper side and underside of two items of which one lies on the other one, m.
@@ -12,16 +13,43 @@ pub struct Block {
     size: Point,
     /// Middle of its underside.
     at: Point,
+    /// To the left, rad.
+    turn: f64,
 }
 
 impl Block {
     /// Turned to the left by so many radians.
     pub fn new(size: Point, at: Point, turn: f64) -> Self {
-        Self { footprint: Footprint::new(size, at, turn), size, at }
+        Self { footprint: Footprint::new(size, at, turn), size, at, turn }
     }
 
     pub fn at(&self) -> Point {
         self.at
+    }
+
+    pub fn turn(&self) -> f64 {
+        self.turn
+    }
+
+    pub fn moved_to(&self, at: Point) -> Self {
+        Self::new(self.size, at, self.turn)
+    }
+
+    /// Origin at the middle of its underside, x along its length.
+    pub fn frame(&self) -> Frame {
+        Frame::new(self.at, self.turn.to_degrees())
+    }
+
+    /// Half of its lengths along x and y of what it is given in.
+    pub fn half_extents(&self) -> [f64; 2] {
+        self.footprint.half_extents()
+    }
+
+    /// Whether it is within these lengths along x and y, around the origin.
+    pub fn is_within(&self, size: [f64; 2]) -> bool {
+        let [x, y] = self.footprint.half_extents();
+        let fits = |at: f64, half: f64, size: f64| at.abs() + half <= size / 2.0 + TOUCHES;
+        fits(self.at.x, x, size[0]) && fits(self.at.y, y, size[1])
     }
 
     pub fn top(&self) -> f64 {

@@ -29,6 +29,11 @@ impl Footprint {
         (0..2).map(|axis| self.half[axis] * dot(self.axes[axis], along).abs()).sum()
     }
 
+    /// Half of its lengths along x and y of what it is given in.
+    pub fn half_extents(&self) -> [f64; 2] {
+        [[1.0, 0.0], [0.0, 1.0]].map(|along| self.extent(along))
+    }
+
     /// Whether the two have more than an edge in common: no side of one has the other beyond it.
     pub fn overlaps(&self, other: &Self) -> bool {
         let apart = [other.middle[0] - self.middle[0], other.middle[1] - self.middle[1]];

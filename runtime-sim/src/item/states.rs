@@ -36,6 +36,7 @@ impl OffLine {
             Carrier::Lane { .. }
             | Carrier::Grip { .. }
             | Carrier::Place { .. }
+            | Carrier::On { .. }
             | Carrier::Floor { .. }
             | Carrier::Part { .. } => None,
         }

@@ -1,6 +1,6 @@
 //! Whether a line can be run at all.
 
-use super::{Collected, Goal, Line, Obstacle};
+use super::{Collected, Deck, Goal, Kind, Line, Obstacle};
 use crate::machine::Machine;
 
 /// Scans that a telegram may be late.
@@ -31,6 +31,9 @@ impl Line {
             }
             if !(kind.mass >= 0.0 && kind.mass.is_finite()) {
                 return Err(format!("the mass of {} is no number from 0 on", kind.name));
+            }
+            if kind.deck.is_some_and(|deck| !is_within(&deck, kind)) {
+                return Err(format!("the deck of {} is not within it", kind.name));
             }
             kind.is.iter().try_for_each(|is| check_name("what a kind is", is))?;
         }
@@ -174,6 +177,13 @@ impl Line {
     fn machine(&self, index: usize, whose: &str) -> Result<&Machine, String> {
         self.machines.get(index).ok_or_else(|| format!("{whose} names machine {index}, which is not there"))
     }
+}
+
+/// Walls, if it has any, have a thickness.
+fn is_within(deck: &Deck, kind: &Kind) -> bool {
+    let has_walls = deck.height < kind.height;
+    let fits = |(inner, outer): (&f64, &f64)| *inner > 0.0 && (inner < outer || !has_walls && inner == outer);
+    (0.0..=kind.height).contains(&deck.height) && deck.size.iter().zip(&kind.size).all(fits)
 }
 
 fn check_name(what: &str, name: &str) -> Result<(), String> {

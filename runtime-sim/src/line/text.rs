@@ -6,8 +6,8 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use super::{
-    Collected, During, Goal, IoDelay, Kind, Line, LineButton, Obstacle, Operation, Order, Press, ReadWhile,
-    Removal, Scenario, State, Supply,
+    Collected, Deck, During, Goal, IoDelay, Kind, Line, LineButton, Obstacle, Operation, Order, Press,
+    ReadWhile, Removal, Scenario, State, Supply,
 };
 use crate::machine::Machine;
 use crate::monitor::{Alarm, Counter, Monitor};
@@ -24,7 +24,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 11".into());
+        put("line 12".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -35,7 +35,10 @@ impl Line {
             let [x, y] = kind.size;
             let is = list(&kind.is);
             let [height, grasp] = [kind.height, kind.grasp];
-            put(format!("  {} {height:?} {grasp:?} {x:?} {y:?} {is} {:?}", kind.name, kind.mass));
+            let mass = kind.mass;
+            let deck = kind.deck.map(|Deck { height, size: [x, y] }| format!("{height:?} {x:?} {y:?}"));
+            let deck = list(deck.as_slice());
+            put(format!("  {} {height:?} {grasp:?} {x:?} {y:?} {is} {mass:?} {deck}", kind.name));
         }
         let mut devices: Vec<&Wiring> = Vec::new();
         for machine in &self.machines {
@@ -157,7 +160,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("11")?;
+        words.expect("12")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;
@@ -171,7 +174,9 @@ impl Line {
             let (name, height, grasp) = (w.name()?.into(), w.real()?, w.real()?);
             let size = [w.real()?, w.real()?];
             let is = w.list(|w| Ok(w.name()?.into()))?;
-            Ok(Kind { name, height, grasp, size, is, mass: w.real()? })
+            let mass = w.real()?;
+            let decks = w.list(|w| Ok(Deck { height: w.real()?, size: [w.real()?, w.real()?] }))?;
+            Ok(Kind { name, height, grasp, size, is, mass, deck: decks.first().copied() })
         })?;
         words.expect("devices")?;
         let devices = words.list(|w| Ok(Arc::new(Wiring::read(w)?)))?;

@@ -62,8 +62,8 @@ impl Machine {
             (Some(_), None) => {
                 Err(format!("{name} has no `at`: {on} is a lane, and {name} is at a place of it"))
             }
-            (Some(_), Some(_)) if process.frees || !process.joins.is_empty() => {
-                Err(format!("{name} joins or frees items, which lie at a place together, and {on} is a lane"))
+            (Some(_), Some(_)) if process.frees => {
+                Err(format!("{name} frees items, which come to lie at a place together, and {on} is a lane"))
             }
             _ => Ok(()),
         }

@@ -1,6 +1,6 @@
 //! A light beam across a lane, or another switch that items on it actuate.
 
-use super::lane::AT_ONCE;
+use super::lane::{AT_ONCE, Over, Rider};
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, See, Signal, Start};
 use crate::device::{Extent, PortType};
@@ -56,28 +56,51 @@ pub struct Crossing {
 
 impl Crossing {
     pub fn new(beam: &Beam, kinds: &[Kind]) -> Self {
-        let is_seen = |kind: &Kind| {
-            kind.height > beam.over && beam.only.as_ref().is_none_or(|only| kind.is.contains(only))
-        };
+        let is_seen = |kind: &Kind| beam.only.as_ref().is_none_or(|only| kind.is.contains(only));
         Self { beam: beam.clone(), is_seen: kinds.iter().map(is_seen).collect() }
     }
 
-    /// What is in the beam, the foremost first.
+    /// The items of the lane that are in the beam, the foremost first.
     pub fn items(&self, see: &See) -> impl Iterator<Item = usize> {
-        let moving = see.lane(self.beam.lane);
-        let riders = moving.into_iter().flat_map(|moving| {
-            let beam = moving.lane().centre_line.begin() - self.beam.at + AT_ONCE;
-            let places = moving.riders.iter().map(move |rider| (rider, moving.place_now(rider)));
-            places.filter(move |(rider, place)| place - rider.half <= beam && place + rider.half > beam)
-        });
-        let items = see.items;
-        riders.map(|(rider, _)| rider.item).filter(move |item| self.is_seen[items[*item].kind])
+        self.riders(see).map(|rider| rider.item)
     }
 
-    /// Kinds of what is in the beam.
-    pub fn seen(&self, see: &See) -> impl Iterator<Item = usize> {
+    /// Whether an item of the lane is in the beam at a time from the start of this span on, ms.
+    pub fn is_crossed_by(&self, item: usize, ms: f64, see: &See) -> bool {
+        let Some(moving) = see.lane(self.beam.lane) else { return false };
+        let beam = moving.lane().centre_line.begin() - self.beam.at;
+        let mut riders = moving.riders.iter().filter(|rider| rider.item == item);
+        riders.any(|rider| {
+            let place = moving.place_at(rider.motion, ms);
+            place - rider.half <= beam + AT_ONCE && place + rider.half >= beam - AT_ONCE
+        })
+    }
+
+    fn riders<'a>(&self, see: &See<'a>) -> impl Iterator<Item = &'a Rider> {
+        let moving = see.lane(self.beam.lane);
+        moving.into_iter().flat_map(|moving| {
+            let beam = moving.lane().centre_line.begin() - self.beam.at + AT_ONCE;
+            let is_in = move |rider: &&Rider| {
+                let place = moving.place_now(rider);
+                place - rider.half <= beam && place + rider.half > beam
+            };
+            moving.riders.iter().filter(is_in)
+        })
+    }
+
+    /// What it sees, on the lane or on other items there.
+    pub fn seen(&self, see: &See) -> impl Iterator<Item = Over> {
         let items = see.items;
-        self.items(see).map(move |item| items[item].kind)
+        let moving = see.lane(self.beam.lane);
+        moving.into_iter().flat_map(move |moving| {
+            let beam = moving.lane().centre_line.begin() - self.beam.at + AT_ONCE;
+            let over = moving.riders.iter().flat_map(move |rider| moving.over(rider.item, rider.motion, items));
+            over.filter(move |over| {
+                let place = moving.place_of_over(over);
+                let is_in = place - over.half <= beam && place + over.half > beam;
+                is_in && over.top > self.beam.over && self.is_seen[items[over.item].kind]
+            })
+        })
     }
 }
 
@@ -90,17 +113,18 @@ impl Running for Crossing {
     fn next_change(&self, see: &See, now_ms: u64) -> f64 {
         let Some(moving) = see.lane(self.beam.lane) else { return f64::INFINITY };
         let beam = moving.lane().centre_line.begin() - self.beam.at;
-        let edges = moving.riders.iter().flat_map(|rider| {
-            let comes_to = |place| moving.comes_to(rider.motion, place, now_ms as f64);
-            [comes_to(beam + rider.half), comes_to(beam - rider.half)]
+        let over = moving.riders.iter().flat_map(|rider| moving.over(rider.item, rider.motion, see.items));
+        let edges = over.flat_map(|over| {
+            let comes_to = |place| moving.over_comes_to(&over, place, now_ms as f64);
+            [comes_to(beam + over.half), comes_to(beam - over.half)]
         });
         edges.fold(f64::INFINITY, f64::min)
     }
 
     fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
         out.fill(0.0);
-        for kind in self.seen(see) {
-            out[if signal == 0 { 0 } else { kind }] = 1.0;
+        for Over { item, .. } in self.seen(see) {
+            out[if signal == 0 { 0 } else { see.items[item].kind }] = 1.0;
         }
     }
 }

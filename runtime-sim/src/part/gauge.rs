@@ -34,8 +34,8 @@ impl Described for Gauge {
     fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
         let kinds = &start.line.kinds;
         let beam = Beam { lane: self.lane, at: self.at, over: 0.0, only: None };
-        let measures = kinds.iter().map(|kind| [kind.height, kind.mass]).collect();
-        Ok(Some(Box::new(Measuring { crossing: Crossing::new(&beam, kinds), measures })))
+        let masses = kinds.iter().map(|kind| kind.mass).collect();
+        Ok(Some(Box::new(Measuring { crossing: Crossing::new(&beam, kinds), masses })))
     }
 }
 
@@ -43,8 +43,8 @@ impl Described for Gauge {
 #[derive(Clone, Debug)]
 struct Measuring {
     crossing: Crossing,
-    /// Of each kind: height and mass.
-    measures: Vec<[f64; 2]>,
+    /// Of each kind, kg.
+    masses: Vec<f64>,
 }
 
 impl Running for Measuring {
@@ -57,7 +57,12 @@ impl Running for Measuring {
     }
 
     fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
-        let measures = self.crossing.seen(see).map(|kind| self.measures[kind][signal]);
-        out[0] = measures.fold(0.0, f64::max);
+        let mass = |item: usize| -> f64 {
+            see.items.with_loads(item).iter().map(|item| self.masses[see.items[*item].kind]).sum()
+        };
+        out[0] = match signal {
+            0 => self.crossing.seen(see).map(|over| over.top).fold(0.0, f64::max),
+            _ => self.crossing.items(see).map(mass).fold(0.0, f64::max),
+        };
     }
 }

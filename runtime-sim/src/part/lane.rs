@@ -2,9 +2,11 @@
 
 mod centre_line;
 mod moving;
+mod over;
 
 pub use centre_line::CentreLine;
 pub use moving::{AT_ONCE, Motion, Moving, Rider};
+pub use over::Over;
 
 use super::settings::{Form, Setting, Settings};
 use super::{Action, Described, Level, Running, Schema, Signal, Start};

@@ -108,8 +108,8 @@ impl Serving {
     /// Whether the place holds the parts of the order and no others.
     fn is_made(&self, order: &Order, see: &See) -> bool {
         order.parts.iter().enumerate().all(|(kind, &wanted)| {
-            let held = see.borne_by(self.place).filter(|&item| see.items[item].kind == kind);
-            held.count() == wanted as usize
+            let held = see.borne_by(self.place).flat_map(|item| see.items.with_loads(item));
+            held.filter(|&item| see.items[item].kind == kind).count() == wanted as usize
         })
     }
 }

@@ -2,8 +2,7 @@
 
 mod stack;
 
-pub use stack::Stack;
-use stack::{Floor, Rest};
+pub use stack::{Floor, Rest, Stack};
 
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, See, Start, Primitive};
@@ -192,10 +191,6 @@ impl Running for Bearing {
 
     fn tips_off(&self, falling: &Falling, ms: f64, see: &See) -> Option<usize> {
         self.rest(falling, self.frame(see, Some(ms)), see)?.tips_off
-    }
-
-    fn lies_on(&self, item: usize, see: &See) -> Option<usize> {
-        self.stack(see)?.lies_on(item)
     }
 
     fn block(&self, item: usize, ms: f64, see: &See) -> Option<Block> {

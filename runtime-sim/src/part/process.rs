@@ -8,6 +8,7 @@ use distribution::{Distribution, TIMES, Times};
 use super::beam::{Beam, Crossing};
 use super::cylinder::End;
 use super::settings::{Form, Setting, Settings};
+use super::stroke::Carriage;
 use super::{Described, Level, Primitive, Progress, Running, Schema, See, Signal, Start, World, milliseconds};
 use crate::device::{Extent, PortType};
 use crate::hash::of_name;
@@ -97,6 +98,10 @@ enum Drawn {
     Reject,
 }
 
+impl Drawn {
+    const COUNT: u64 = 2;
+}
+
 impl Process {
     /// No cycle takes less, ms.
     pub fn shortest_ms(&self) -> u64 {
@@ -114,6 +119,30 @@ impl Process {
         let all = self.makes.iter().chain(self.rejects.iter().map(|reject| &reject.kinds));
         all.map(|pair| pair.each_ref().map(String::as_str))
     }
+}
+
+/// What can never happen with these kinds.
+fn check_kinds(kinds: Option<&[String]>, makes: &[[String; 2]], rejects: &[Reject]) -> Result<(), String> {
+    if kinds.is_some_and(|kinds| kinds.is_empty()) {
+        return Err("kinds is an empty list: name kinds, or leave it out for all kinds".into());
+    }
+    if let Some(twice) = makes.iter().enumerate().find(|(number, [kind, _])| {
+        makes[..*number].iter().any(|[other, _]| other == kind)
+    }) {
+        return Err(format!("the setting makes says twice what becomes of {}", twice.1[0]));
+    }
+    let pairs = makes.iter().map(|pair| ("makes", pair));
+    let pairs = pairs.chain(rejects.iter().map(|reject| ("rejects", &reject.kinds)));
+    for (setting, [kind, becomes]) in pairs {
+        if kinds.is_some_and(|kinds| !kinds.contains(kind)) {
+            return Err(format!("{setting} says what becomes of {kind}, which is not among the kinds"));
+        }
+        let stays = makes.iter().all(|[made, _]| made != kind);
+        if setting == "rejects" && kind == becomes && stays {
+            return Err(format!("rejects says that some of {kind} become {kind}"));
+        }
+    }
+    Ok(())
 }
 
 /// What is rounded in a sum of shares.
@@ -146,7 +175,8 @@ fn times(settings: &Settings, kinds: &[String]) -> Result<Vec<Distribution>, Str
 fn pairs(settings: &Settings, name: &str) -> Result<Vec<[String; 2]>, String> {
     let words = settings.optional(name, Settings::words)?.unwrap_or_default();
     if words.len() % 2 != 0 {
-        return Err(format!("the setting {name} names a kind without what becomes of it"));
+        let last = words.last().map_or("", String::as_str);
+        return Err(format!("the setting {name} names {last} without what becomes of it"));
     }
     Ok(words.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect())
 }
@@ -157,8 +187,8 @@ fn rejects(settings: &Settings) -> Result<Vec<Reject>, String> {
     if pairs.len() != shares.len() {
         return Err(format!("the setting rejects has {} pairs, and shares {} numbers", pairs.len(), shares.len()));
     }
-    if shares.iter().any(|share| !(0.0..=1.0).contains(share)) {
-        return Err("a share is a number from 0 to 1".into());
+    if let Some(share) = shares.iter().find(|share| !(0.0..=1.0).contains(*share)) {
+        return Err(format!("a share is a number from 0 to 1, not {share}"));
     }
     let rejects: Vec<Reject> = pairs.into_iter().zip(shares).map(|(kinds, share)| Reject { kinds, share }).collect();
     for Reject { kinds: [kind, _], .. } in &rejects {
@@ -172,7 +202,10 @@ fn rejects(settings: &Settings) -> Result<Vec<Reject>, String> {
 
 impl Described for Process {
     fn new(settings: &Settings) -> Result<Self, String> {
-        let kinds = settings.optional("kinds", Settings::words)?.unwrap_or_default();
+        let given = settings.optional("kinds", Settings::words)?;
+        let (makes, rejects) = (pairs(settings, "makes")?, rejects(settings)?);
+        check_kinds(given.as_deref(), &makes, &rejects)?;
+        let kinds = given.unwrap_or_default();
         if let Some(twice) = kinds.iter().enumerate().find(|(number, kind)| kinds[..*number].contains(kind)) {
             return Err(format!("the setting kinds names {} twice", twice.1));
         }
@@ -184,8 +217,8 @@ impl Described for Process {
             kinds,
             needs_in: settings.optional("needs_in", Settings::part)?,
             needs_out: settings.optional("needs_out", Settings::part)?,
-            makes: pairs(settings, "makes")?,
-            rejects: rejects(settings)?,
+            makes,
+            rejects,
             joins: settings.optional("joins", Settings::words)?.unwrap_or_default(),
             frees: settings.optional("frees", Settings::truth)?.unwrap_or(false),
         })
@@ -198,6 +231,7 @@ impl Described for Process {
         let mine = |slow: &&SlowCycle| (slow.machine, slow.part) == (start.machine, start.part);
         let slow = start.line.scenario.slow.iter().filter(mine);
         cycle.longer_ms = slow.map(|slow| (slow.cycle, milliseconds(slow.longer_s))).collect();
+        cycle.name = format!("the process {}", parts[start.part].name);
         let need = |part: Option<usize>, end: End| part.map(|part| (part, end, parts[part].name.clone()));
         let needs = [need(self.needs_in, End::In), need(self.needs_out, End::Out)];
         cycle.needs = needs.into_iter().flatten().collect();
@@ -233,6 +267,8 @@ pub struct Cycle {
     slots: Vec<Point>,
     /// On a lane, what is at its place there.
     crossing: Option<Crossing>,
+    /// Of the part.
+    name: String,
     seed: u64,
     /// Of the names of its machine and of itself.
     place: [u64; 2],
@@ -274,6 +310,7 @@ impl Cycle {
             kinds: kinds.iter().map(|kind| kind.name.clone()).collect(),
             slots: Vec::new(),
             crossing: None,
+            name: "the process".into(),
             seed,
             place,
             is_on: false,
@@ -292,20 +329,27 @@ impl Cycle {
     }
 
     /// From 0 to less than 1. What is drawn for a cycle depends on no other cycle and no other process.
-    fn drawn(&self, what: Drawn) -> f64 {
+    fn drawn(&self, what: Drawn, number: u64) -> f64 {
         let [machine, part] = self.place;
-        Random::at(self.seed, [machine, part, u64::from(self.started), what as u64]).fraction()
+        let what = Drawn::COUNT * number + what as u64;
+        Random::at(self.seed, [machine, part, u64::from(self.started), what]).fraction()
     }
 
     /// Of the cycle that was started last, for an item of a kind on which it works; ms.
     fn time_ms(&self, kind: usize) -> u64 {
         let number = self.times[kind].unwrap_or(0).min(self.process.times.len() - 1);
-        self.process.times[number].time_ms(self.drawn(Drawn::Time))
+        self.process.times[number].time_ms(self.drawn(Drawn::Time, 0))
     }
 
-    /// What an item of a kind becomes at the end of this cycle.
-    fn made_of(&self, kind: usize) -> usize {
-        let mut drawn = self.drawn(Drawn::Reject);
+    /// Of an item and what lies on it the first on which the process works.
+    fn work_piece(&self, item: usize, see: &See) -> Option<usize> {
+        let mut all = see.items.with_loads(item).into_iter();
+        all.find(|item| self.times[see.items[*item].kind].is_some())
+    }
+
+    /// What an item of a kind becomes at the end of this cycle, as number `number` of those that are there.
+    fn made_of(&self, kind: usize, number: u64) -> usize {
+        let mut drawn = self.drawn(Drawn::Reject, number);
         for (becomes, share) in &self.rejects[kind] {
             if drawn < *share {
                 return *becomes;
@@ -321,27 +365,49 @@ impl Cycle {
         self.crossing.iter().flat_map(|crossing| crossing.items(see)).chain(at_place)
     }
 
-    /// Whether an item moves that should not.
+    /// Whether an item on a lane moves that should not, along it or with what carries it.
     fn slides(&self, item: usize, see: &See) -> bool {
-        let lane = see.lane(self.process.on).filter(|_| !self.process.moving);
-        let motion = lane.and_then(|lane| Some((lane, lane.motion(item, &see.items[item].carrier)?)));
-        motion.is_some_and(|(lane, motion)| lane.speed_of(motion) > 0.0)
+        let Some(lane) = see.lane(self.process.on).filter(|_| !self.process.moving) else { return false };
+        let motion = lane.motion(item, &see.items[item].carrier);
+        let carriage = lane.lane().on.and_then(|carriage| see.carriage(carriage));
+        let is_carried = |carriage: &dyn Carriage| {
+            carriage.stroking(carriage.now_ms()).is_some_and(|stroking| stroking.moves())
+        };
+        motion.is_some_and(|motion| lane.speed_of(motion) > 0.0) || carriage.is_some_and(is_carried)
+    }
+
+    /// Whether the item is still at its place at a time of this scan, ms.
+    fn is_there_at(&self, item: usize, ms: f64, see: &See) -> bool {
+        self.crossing.as_ref().is_none_or(|crossing| crossing.is_crossed_by(item, ms, see))
     }
 
     /// The items that are joined to one, in the order of their kinds; the name of a kind of which none is there.
     fn joined(&self, item: usize, see: &See) -> Result<Vec<usize>, &str> {
         let mut joined = Vec::new();
+        let beside = see.borne_by(self.process.on).filter(|_| self.crossing.is_none());
+        let others: Vec<usize> = beside.chain(see.items.loads_of(item).iter().copied()).collect();
         for (kind, name) in self.joins.iter().zip(&self.process.joins) {
             let is_wanted = |other: &usize| {
                 *other != item && !joined.contains(other) && Some(see.items[*other].kind) == *kind
             };
-            joined.push(see.borne_by(self.process.on).find(is_wanted).ok_or(name.as_str())?);
+            joined.push(others.iter().copied().find(is_wanted).ok_or(name.as_str())?);
         }
         Ok(joined)
     }
 
-    /// The parts of an item come to lie on free slots; the kind of one for which there is none.
-    fn free(&self, item: usize, world: &mut World) -> Result<(), usize> {
+    /// Of an item that is not there any more.
+    fn left(&self, item: usize, see: &See) -> String {
+        let is_on_lane = see.borne_by(self.process.on).any(|other| other == item);
+        let left = if is_on_lane { "left" } else { "was taken from" };
+        format!("{} {left} {} before its end", self.item_text(item, see), self.name)
+    }
+
+    fn item_text(&self, item: usize, see: &See) -> String {
+        format!("a {}", self.kinds[see.items[item].kind])
+    }
+
+    /// The parts of an item come to lie on free slots; the error is why one cannot.
+    fn free(&self, item: usize, world: &mut World) -> Result<(), String> {
         let place = self.process.on;
         for other in world.items.parts_of(item) {
             let see = world.see();
@@ -350,8 +416,10 @@ impl Cycle {
                 offsets.any(|offset| (offset - *slot).length() < NEAR)
             };
             let slot = self.slots.iter().find(|slot| !is_taken(slot)).copied();
-            let offset = slot.ok_or(see.items[other].kind)?;
+            let kind = &self.kinds[see.items[other].kind];
+            let offset = slot.ok_or_else(|| format!("{} has no free slot for a {kind}", self.name))?;
             world.lay(other, place, offset);
+            self.lay_down(other, world)?;
         }
         Ok(())
     }
@@ -360,13 +428,16 @@ impl Cycle {
     fn lacks(&self, item: Option<usize>, world: &World) -> String {
         let see = world.see();
         let mut lacks = Vec::new();
-        match item.map(|item| see.items[item].kind) {
+        match item {
             None => lacks.push("an item".to_string()),
-            Some(kind) if self.times[kind].is_none() => lacks.push(format!("a time for a {}", self.kinds[kind])),
+            Some(item) if self.work_piece(item, &see).is_none() => {
+                lacks.push(format!("a time for a {}", self.kinds[see.items[item].kind]));
+            }
             Some(_) => {}
         }
         if let Some(Err(kind)) = item.map(|item| self.joined(item, &see)) {
-            lacks.push(format!("a {kind} beside it"));
+            let beside = if self.crossing.is_some() { "on" } else { "beside" };
+            lacks.push(format!("a {kind} {beside} it"));
         }
         if item.is_some_and(|item| self.slides(item, &see)) {
             lacks.push("an item that stands".to_string());
@@ -405,20 +476,21 @@ impl Running for Cycle {
                 Some(item) => {
                     self.has_ended = false;
                     self.started = self.started.saturating_add(1);
-                    let kind = world.items[item].kind;
+                    let work_piece = self.work_piece(item, &world.see()).unwrap_or(item);
+                    let kind = world.items[work_piece].kind;
                     self.works = Some((item, world.now_ms + self.time_ms(kind) + self.longer_ms()));
                 }
-                None => world.crash(format!("a process was started without {lacks}")),
+                None => world.crash(format!("{} was started without {lacks}", self.name)),
             }
         }
         if let Some((item, _)) = self.works {
             let see = world.see();
-            let kind = &self.kinds[see.items[item].kind];
             let crash = match () {
-                () if self.slides(item, &see) => Some(format!("a {kind} was moved during a process")),
+                () if self.slides(item, &see) => {
+                    Some(format!("{} was moved during {}", self.item_text(item, &see), self.name))
+                }
                 () if self.there(&see).any(|there| there == item) => None,
-                () if self.crossing.is_some() => Some(format!("a {kind} left a process before its end")),
-                () => Some(format!("a {kind} was taken from a process")),
+                () => Some(self.left(item, &see)),
             };
             if let Some(reason) = crash {
                 self.works = None;
@@ -427,9 +499,17 @@ impl Running for Cycle {
         }
         if let Some((item, ready_ms)) = self.works
             && ready_ms <= world.next_ms()
+            && !self.is_there_at(item, ready_ms as f64, &world.see())
+        {
+            self.works = None;
+            world.crash(self.left(item, &world.see()));
+        }
+        if let Some((item, ready_ms)) = self.works
+            && ready_ms <= world.next_ms()
         {
             (self.works, self.has_ended) = (None, true);
-            let joined = self.joined(item, &world.see()).map_err(|kind| format!("a {kind} was taken from a process"));
+            let joined = self.joined(item, &world.see());
+            let joined = joined.map_err(|kind| format!("a {kind} was taken from {}", self.name));
             let before = world.see().stack(self.process.on);
             let joined = joined.unwrap_or_else(|reason| {
                 world.crash(reason);
@@ -437,12 +517,16 @@ impl Running for Cycle {
             });
             joined.iter().for_each(|other| world.join(*other, item));
             if self.process.frees
-                && let Err(kind) = self.free(item, world)
+                && let Err(reason) = self.free(item, world)
             {
-                world.crash(format!("a process has no free slot for a {}", self.kinds[kind]));
+                world.crash(reason);
             }
-            let kind = world.items[item].kind;
-            world.items.remake(item, self.made_of(kind));
+            for (number, item) in world.items.with_loads(item).into_iter().enumerate() {
+                let kind = world.items[item].kind;
+                if self.times[kind].is_some() {
+                    world.items.remake(item, self.made_of(kind, number as u64));
+                }
+            }
             if let Some(before) = before
                 && let Err(reason) = self.settle(item, &before, &joined, world)
             {

@@ -105,8 +105,9 @@ impl<'a> World<'a> {
 
     /// An item becomes a part of another one.
     pub fn join(&mut self, item: usize, of: usize) {
-        let carrier = self.items[item].carrier;
-        let place = carrier.part().and_then(|part| self.see().place(part, item)).unwrap_or_default();
+        let base = self.items.base_of(item);
+        let part = self.items[base].carrier.part();
+        let place = part.and_then(|part| self.see().place(part, base)).unwrap_or_default();
         self.items.pass(item, Carrier::Part { of }, place);
     }
 
@@ -187,6 +188,11 @@ impl<'a> See<'a> {
     /// The items of a place of this machine where they lie on one another.
     pub fn stack(&self, part: usize) -> Option<Stack> {
         self.part(part)?.stack(self)
+    }
+
+    /// What an item takes up at a time, ms, that a part of this machine bears.
+    pub fn block(&self, part: usize, item: usize, ms: f64) -> Option<Block> {
+        self.part(part)?.block(item, ms, self)
     }
 
     /// Items that a part of this machine bears, in the order in which they came.
@@ -314,11 +320,6 @@ pub trait Running: std::fmt::Debug + Send + Sync {
 
     /// The height of its surface and what becomes of an item that comes down at this time, ms, if it meets that.
     fn below(&self, _falling: &Falling, _ms: f64, _see: &See) -> Option<(f64, Carrier)> {
-        None
-    }
-
-    /// An item that lies on this one, at the same place.
-    fn lies_on(&self, _item: usize, _see: &See) -> Option<usize> {
         None
     }
 

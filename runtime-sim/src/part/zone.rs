@@ -1,10 +1,9 @@
 //! A field over a lane in which items are seen, with their kinds and places.
 
 use super::settings::{Form, Setting, Settings};
-use super::lane::{self, Lane};
+use super::lane::{Moving, Over};
 use super::{Described, Primitive, Running, Schema, See, Signal, Start};
 use crate::device::{Extent, PortType};
-use crate::line::Kind;
 use crate::point::Point;
 
 pub const SCHEMA: Schema = Schema {
@@ -49,10 +48,10 @@ impl Described for Zone {
 
     fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
         let parts = &start.line.machines[start.machine].parts;
-        let Some(Primitive::Lane(lane)) = parts.get(self.lane).map(|part| &part.primitive) else {
+        let Some(Primitive::Lane(_)) = parts.get(self.lane).map(|part| &part.primitive) else {
             return Err("a zone is over a lane".into());
         };
-        Ok(Some(Box::new(Seeing::new(self, lane, &start.line.kinds))))
+        Ok(Some(Box::new(Seeing::new(self))))
     }
 }
 
@@ -60,42 +59,50 @@ impl Described for Zone {
 #[derive(Clone, Debug)]
 pub struct Seeing {
     zone: Zone,
-    /// By kind: how far the middle of an item that lies wholly in the field is from the field's at most.
-    farthest: Vec<f64>,
 }
 
 impl Seeing {
-    pub fn new(zone: &Zone, lane: &Lane, kinds: &[Kind]) -> Self {
-        let half = |kind: &Kind| (lane.lengths_of(kind.size)[0] / 2.0).max(zone.part_half);
-        Self { zone: zone.clone(), farthest: kinds.iter().map(|kind| zone.half - half(kind)).collect() }
+    pub fn new(zone: &Zone) -> Self {
+        Self { zone: zone.clone() }
     }
 
-    /// All items that lie wholly in the field, and where they are along the lane.
-    fn seen<'a>(&'a self, see: &'a See<'a>) -> impl Iterator<Item = (usize, f64)> + 'a {
-        let lane = see.lane(self.zone.lane).and_then(|moving| Some((moving, self.middle(moving)?)));
-        lane.into_iter().flat_map(move |(moving, middle)| {
-            see.borne_by(self.zone.lane).filter_map(move |number| {
-                let item = &see.items[number];
-                let along = moving.place_of(number, &item.carrier)?;
-                ((along - middle).abs() <= self.farthest[item.kind]).then_some((number, along))
-            })
+    /// How far the middle of what lies wholly in the field is from the field's at most.
+    fn farthest(&self, over: &Over) -> f64 {
+        self.zone.half - over.half.max(self.zone.part_half)
+    }
+
+    /// All on the lane, and on other items there.
+    fn all<'a>(&self, moving: &'a Moving, see: &See<'a>) -> impl Iterator<Item = Over> + 'a {
+        let items = see.items;
+        see.borne_by(self.zone.lane).flat_map(move |item| {
+            let motion = moving.motion(item, &items[item].carrier);
+            motion.into_iter().flat_map(move |motion| moving.over(item, motion, items))
         })
     }
 
-    /// Of each kind the foremost one.
-    fn foremost(&self, see: &See) -> Vec<Option<(usize, f64)>> {
-        let mut foremost: Vec<Option<(usize, f64)>> = vec![None; self.farthest.len()];
-        for (number, along) in self.seen(see) {
-            let of_kind = &mut foremost[see.items[number].kind];
+    /// What lies wholly in the field, and where along the lane.
+    fn seen<'a>(&'a self, moving: &'a Moving, see: &See<'a>) -> impl Iterator<Item = (Over, f64)> + 'a {
+        let middle = self.middle(moving);
+        self.all(moving, see).filter_map(move |over| {
+            let along = moving.place_of_over(&over);
+            ((along - middle?).abs() <= self.farthest(&over)).then_some((over, along))
+        })
+    }
+
+    /// Of each of so many kinds the foremost one.
+    fn foremost(&self, kinds: usize, moving: &Moving, see: &See) -> Vec<Option<(Over, f64)>> {
+        let mut foremost: Vec<Option<(Over, f64)>> = vec![None; kinds];
+        for (over, along) in self.seen(moving, see) {
+            let of_kind = &mut foremost[see.items[over.item].kind];
             if of_kind.is_none_or(|(_, other)| along < other) {
-                *of_kind = Some((number, along));
+                *of_kind = Some((over, along));
             }
         }
         foremost
     }
 
     /// Place of the field's middle on the lane.
-    fn middle(&self, moving: &lane::Moving) -> Option<f64> {
+    fn middle(&self, moving: &Moving) -> Option<f64> {
         Some(moving.lane().centre_line.find(self.zone.middle)?.0)
     }
 }
@@ -109,24 +116,23 @@ impl Running for Seeing {
     fn next_change(&self, see: &See, now_ms: u64) -> f64 {
         let Some(moving) = see.lane(self.zone.lane) else { return f64::INFINITY };
         let Some(middle) = self.middle(moving) else { return f64::INFINITY };
-        let times = see.borne_by(self.zone.lane).flat_map(|number| {
-            let item = &see.items[number];
-            let far = self.farthest[item.kind];
-            let motion = moving.motion(number, &item.carrier);
-            let comes_to = |place: f64| motion.map(|motion| moving.comes_to(motion, place, now_ms as f64));
-            [comes_to(middle - far), comes_to(middle + far)].into_iter().flatten()
+        let times = self.all(moving, see).flat_map(|over| {
+            let far = self.farthest(&over);
+            let comes_to = |place: f64| moving.over_comes_to(&over, place, now_ms as f64);
+            [comes_to(middle - far), comes_to(middle + far)]
         });
         times.fold(f64::INFINITY, f64::min)
     }
 
     fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
         out.fill(0.0);
+        let Some(moving) = see.lane(self.zone.lane) else { return };
         if signal == 0 {
-            self.seen(see).for_each(|(number, _)| out[see.items[number].kind] = 1.0);
+            self.seen(moving, see).for_each(|(over, _)| out[see.items[over.item].kind] = 1.0);
             return;
         }
-        for (kind, foremost) in self.foremost(see).into_iter().enumerate() {
-            let place = foremost.and_then(|(number, _)| see.place(self.zone.lane, number));
+        for (kind, foremost) in self.foremost(out.len() / 3, moving, see).into_iter().enumerate() {
+            let place = foremost.and_then(|(over, _)| moving.point_of_over(&over, see));
             if let Some(Point { x, y, z }) = place {
                 out[3 * kind..3 * kind + 3].copy_from_slice(&[x, y, z]);
             }

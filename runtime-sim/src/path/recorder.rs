@@ -55,8 +55,9 @@ impl Recorder {
                 changed.extend(plant.items().borne_by(machine));
             }
         }
+        changed = changed.into_iter().flat_map(|item| plant.items().with_loads(item)).collect();
         // Nothing comes onto a conveyor unless it is handed over.
-        self.on_lanes.extend(&handed_over);
+        self.on_lanes.extend(handed_over.iter().flat_map(|item| plant.items().with_loads(*item)));
         self.on_lanes.sort_unstable();
         self.on_lanes.dedup();
         for &item in &self.on_lanes {
@@ -71,7 +72,7 @@ impl Recorder {
             if let (false, Some(last), Some(conveyed)) = (is_as_before, last.as_ref(), conveyed)
                 && let Some(stood_s) = last.stood_after(&conveyed, passed_s)
             {
-                let carrier = plant.items()[item].carrier;
+                let carrier = plant.base_carrier(item);
                 let begin_ms = to_nanosecond(now_ms + 1000.0 * (stood_s - passed_s));
                 let path = &mut self.paths[item];
                 path.cut(begin_ms);
@@ -103,12 +104,13 @@ impl Recorder {
         for event in log.since(self.read) {
             match *event {
                 Event::Item { item, to, point, .. } => {
+                    let carrier = to.item().map_or(to, |under| plant.base_carrier(under));
                     let path = &mut self.paths[item];
                     path.cut(now_ms);
                     path.segments.push(Segment {
                         begin_ms: now_ms,
                         end_ms: now_ms,
-                        carrier: to,
+                        carrier,
                         law: Law::Rests(point),
                     });
                     passed.push(item);
@@ -124,7 +126,7 @@ impl Recorder {
     /// What an item does from now on, if nothing changes any more.
     fn follow(&mut self, plant: &Plant, item: usize) {
         let now_ms = plant.now_ms() as f64;
-        let carrier = plant.items()[item].carrier;
+        let carrier = plant.base_carrier(item);
         let Some(place) = plant.place(item) else { return };
         let machine = carrier.machine();
         let trajectory = match self.conveyed[item] {

@@ -311,7 +311,7 @@ mod tests {
     use super::*;
 
     fn kind(height: f64, grasp: f64) -> Kind {
-        Kind { name: "part".into(), height, grasp, size: [0.1, 0.2], is: Vec::new(), mass: 0.1 }
+        Kind { name: "part".into(), height, grasp, size: [0.1, 0.2], is: Vec::new(), mass: 0.1, deck: None }
     }
 
     /// Upper and lower end under the tool, m.

@@ -14,6 +14,9 @@ pub struct Conveyed {
     /// Place of its middle on the centre line, now.
     pub place: f64,
     pub across: f64,
+    /// Of what lies on an item, from that: ahead, to the left and upwards where the conveyor turns items, else along the
+    /// axes of what carries it.
+    pub offset: Point,
     /// m/s.
     pub speed: f64,
     /// It goes no farther; negative infinity: nothing that stands is in its way.
@@ -49,6 +52,7 @@ impl Conveyed {
             centre_line,
             place: surface.x,
             across: 0.0,
+            offset: Point::default(),
             speed: 0.0,
             stops_at: f64::NEG_INFINITY,
             carried: None,
@@ -63,9 +67,37 @@ impl Conveyed {
         (self.place - self.speed * seconds).max(self.stops_at.min(self.place))
     }
 
+    /// The same as [`Self::point`], as seen from what carries the conveyor.
+    pub fn on_line(&self, seconds: f64) -> Point {
+        let place = self.place_after(seconds);
+        if self.offset == Point::default() {
+            return self.centre_line.point(place, self.across);
+        }
+        match self.centre_line.turns_items() {
+            true => self.centre_line.frame(place).point(self.offset + Point::new(0.0, self.across, 0.0)),
+            false => self.centre_line.point(place, self.across) + self.offset,
+        }
+    }
+
+    /// Its own place on the centre line now, and how far across it is: of what lies on an item nearly.
+    pub fn along_and_across(&self) -> (f64, f64) {
+        let Point { x, y, .. } = self.offset;
+        match self.centre_line {
+            CentreLine::Axis { along: Axis::X, .. } => (self.place + x, self.across + y),
+            CentreLine::Axis { along: Axis::Y, .. } => (self.place + y, self.across + x),
+            CentreLine::Line { .. } => (self.place - x, self.across + y),
+            // Seen from the middle of the arc.
+            CentreLine::Arc { radius, .. } => {
+                let from_middle = radius - self.across - y;
+                let far = libm::hypot(from_middle, x) * radius.signum();
+                (self.place - radius * libm::atan2(x, from_middle.abs()) * radius.signum(), radius - far)
+            }
+        }
+    }
+
     /// Where its underside is after so many seconds.
     pub fn point(&self, seconds: f64) -> Point {
-        let point = self.centre_line.point(self.place_after(seconds), self.across);
+        let point = self.on_line(seconds);
         self.carried.map_or(point, |carried| carried.frame(seconds).point(point))
     }
 
@@ -80,6 +112,12 @@ impl Conveyed {
         lies + carried
     }
 
+    /// How something continues that is rigid with it, so far from it in its frame; `own` as in [`Self::yaw`].
+    pub fn with(&self, offset: Point, own: f64) -> Self {
+        let heading = if self.centre_line.turns_items() { 0.0 } else { own };
+        Self { offset: Frame::new(Point::default(), heading).point(offset), ..*self }
+    }
+
     /// Of how it goes on, with where it is; none if what it lies on is carried.
     pub fn law(&self) -> Option<Fingerprint> {
         if self.carried.is_some() {
@@ -88,7 +126,9 @@ impl Conveyed {
         let [begin, end] = [self.centre_line.begin(), self.centre_line.end()];
         let places = [begin, (begin + end) / 2.0, end, self.place];
         let points = places.into_iter().map(|place| self.centre_line.point(place, self.across));
-        let numbers = points.flat_map(|Point { x, y, z }| [x, y, z]).chain([self.speed, self.stops_at]);
+        let numbers = points.flat_map(|Point { x, y, z }| [x, y, z]);
+        let Point { x, y, z } = self.offset;
+        let numbers = numbers.chain([self.speed, self.stops_at, x, y, z]);
         Some(numbers.fold(Fingerprint::default(), Fingerprint::near))
     }
 
@@ -102,7 +142,7 @@ impl Conveyed {
         let rests = then.speed == 0.0 && other.speed == 0.0;
         is_carried_on
             && (rests || (then.speed, then.stops_at) == (other.speed, other.stops_at))
-            && (then.centre_line, then.across) == (other.centre_line, other.across)
+            && (then.centre_line, then.across, then.offset) == (other.centre_line, other.across, other.offset)
             && (then.place - other.place).abs() <= SAME
     }
 
@@ -138,7 +178,8 @@ impl Conveyed {
 
     /// When it came to where the other one is after so many seconds, if it has stood there since; in seconds from now.
     pub fn stood_after(&self, other: &Self, seconds: f64) -> Option<f64> {
-        let is_on_the_same = (self.centre_line, self.across) == (other.centre_line, other.across);
+        let is_on_the_same =
+            (self.centre_line, self.across, self.offset) == (other.centre_line, other.across, other.offset);
         let stands = is_on_the_same && self.carried.is_none() && self.speed > 0.0;
         let stood_s = (self.place - other.place) / self.speed;
         (stands && (0.0..seconds).contains(&stood_s)).then_some(stood_s)

@@ -1,6 +1,7 @@
 //! Where an item comes to rest that nothing holds any more.
 
 use super::Plant;
+use super::loads::OnDeck;
 use crate::carrier::Carrier;
 use crate::point::Point;
 
@@ -20,8 +21,8 @@ pub struct Falling {
 }
 
 /// The highest surface under an item, or what holds it; the top of an obstacle or the floor, and where the item then
-/// rests. It stays there however deep it fell. Items lie on one another only where a place says so.
-pub fn fall(plant: &Plant, falling: &Falling, ms: f64) -> (Carrier, Point) {
+/// rests. It stays there however deep it fell. Items lie on one another only where a place says so, and on a deck.
+pub fn fall(plant: &Plant, item: usize, falling: &Falling, ms: f64) -> (Carrier, Point) {
     let point = falling.point;
     let mut lands: Option<(f64, Carrier)> = None;
     for machine in &plant.machines {
@@ -31,6 +32,11 @@ pub fn fall(plant: &Plant, falling: &Falling, ms: f64) -> (Carrier, Point) {
         if lands.is_none_or(|(highest, _)| height > highest) {
             lands = Some((height, carrier));
         }
+    }
+    if let Some(OnDeck { under, block, height, .. }) = plant.on_deck(item, falling, ms)
+        && lands.is_none_or(|(highest, _)| height >= highest)
+    {
+        lands = Some((height, Carrier::On { item: under, offset: block.at() }));
     }
     match (lands, to_floor(plant, point)) {
         (Some((height, carrier)), (_, floor)) if height >= floor.z => (carrier, Point { z: height, ..point }),

@@ -232,7 +232,7 @@ impl Plant {
     fn lying(&self, speeds: &[f64]) -> Lying {
         let (mut at_rest, mut moving) = (Vec::new(), Vec::new());
         for index in self.items.placed() {
-            let carrier = self.items[index].carrier;
+            let carrier = self.base_carrier(index);
             match carrier.machine() {
                 _ if matches!(carrier, Carrier::Grip { .. }) => {}
                 Some(machine) if speeds[machine] > 0.0 => moving.push(index),
@@ -245,7 +245,7 @@ impl Plant {
     /// What a gripper may find as it lies now.
     fn candidates(&self, Lying { speeds, at_rest, moving, .. }: &Lying) -> Candidates {
         let carried = |item: &usize| {
-            let machine = self.items[*item].carrier.machine()?;
+            let machine = self.base_carrier(*item).machine()?;
             Some(Carried { grip: self.grip_point(*item)?, leap: self.leap(*item), speed: speeds[machine] })
         };
         Candidates { at_rest: at_rest.clone(), moving: moving.iter().filter_map(carried).collect() }
@@ -270,23 +270,25 @@ impl Plant {
             if let Some(item) = self.machines[machine].meets(part, contact, now_ms, next_ms)
                 && let Some(place) = self.place(item)
             {
-                self.take_from_under(machine, item);
+                self.take_from_under(machine, item, next_ms as f64);
                 let hang = Point { z: self.grasp(item), ..tool.inverse().point(place) };
                 self.hand_over(item, Carrier::Grip { machine, part, hang }, tool.point(hang));
             }
         }
     }
 
-    /// An item that lies on this one.
-    pub(super) fn lies_on(&self, item: usize) -> Option<usize> {
+    /// An item that lies on this one at a time, ms.
+    pub(super) fn lies_on(&self, item: usize, ms: f64) -> Option<usize> {
         let carrier = self.items[item].carrier;
-        let working = self.machines.get(carrier.machine()?)?;
-        working.lies_on(item, &carrier, &self.items, &self.desk)
+        if let Carrier::On { item: under, .. } = carrier {
+            return self.deck(under)?.lies_on(item);
+        }
+        self.upper_at_places(item, ms)
     }
 
     /// An item on which another one lies is not lifted alone.
-    fn take_from_under(&mut self, machine: usize, item: usize) {
-        if self.lies_on(item).is_some() {
+    fn take_from_under(&mut self, machine: usize, item: usize, ms: f64) {
+        if self.lies_on(item, ms).is_some() {
             self.items.crash(machine, "took an item on which another one lies".into());
         }
     }
@@ -309,7 +311,7 @@ impl Plant {
     fn contact(&self, tool: &Pose, near: f64) -> Option<usize> {
         let mut nearest: Option<(f64, usize)> = None;
         for index in self.items.placed() {
-            if matches!(self.items[index].carrier, Carrier::Grip { .. }) {
+            if matches!(self.base_carrier(index), Carrier::Grip { .. }) {
                 continue;
             }
             let Some(grip) = self.grip_point(index) else { continue };

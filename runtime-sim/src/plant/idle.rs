@@ -85,12 +85,13 @@ impl Plant {
         for number in self.heard..self.items.log().count() {
             match self.items.log().since(number)[0] {
                 Event::Item { from, to, .. } => {
-                    for machine in [from, to].into_iter().filter_map(|carrier| carrier.machine()) {
+                    for machine in [from, to].map(|carrier| self.machine_under(carrier)).into_iter().flatten()
+                    {
                         self.wake(machine, now_ms);
                     }
                 }
                 Event::Kind { item, .. } => {
-                    if let Some(machine) = self.items[item].carrier.machine() {
+                    if let Some(machine) = self.base_carrier(item).machine() {
                         self.wake(machine, now_ms);
                     }
                 }

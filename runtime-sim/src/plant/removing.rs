@@ -44,8 +44,11 @@ impl Plant {
             }
             let carrier = self.items[item].carrier;
             match (carrier, self.place(item)) {
-                (Carrier::Lane { .. } | Carrier::Place { .. } | Carrier::Floor { .. }, Some(point)) => {
-                    match self.lies_on(item) {
+                (
+                    Carrier::Lane { .. } | Carrier::Place { .. } | Carrier::On { .. } | Carrier::Floor { .. },
+                    Some(point),
+                ) if !matches!(self.base_carrier(item), Carrier::Grip { .. }) => {
+                    match self.lies_on(item, (scan * self.scan_ms) as f64) {
                         Some(upper) => self.removing[number].missed = Some(NotRemoved::Under(upper)),
                         None => self.items.pass(item, Carrier::Collector, point),
                     }

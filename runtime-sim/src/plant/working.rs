@@ -438,19 +438,18 @@ impl Working {
             .reduce(|best, other| if other.0 > best.0 { other } else { best })
     }
 
-    /// An item that lies on this one.
-    pub fn lies_on(&self, item: usize, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<usize> {
-        let part = self.parts.get(carrier.part()?)?.as_ref()?;
-        part.lies_on(item, &self.see(items, desk))
-    }
-
-    /// An item off which another one tips that comes down to this height; none if a part of the machine bears it there.
-    pub fn tips_off(&self, falling: &Falling, height: f64, ms: f64, see: &See) -> Option<usize> {
-        let meets = |part: &&dyn Running| {
+    /// Of each part that bears an item at this height which comes down, the item off which it tips there.
+    pub fn tips_off(
+        &self,
+        falling: &Falling,
+        height: f64,
+        ms: f64,
+        see: &See,
+    ) -> impl Iterator<Item = Option<usize>> {
+        let meets = move |part: &&dyn Running| {
             part.below(falling, ms, see).is_some_and(|(surface, _)| (surface - height).abs() < SAME_HEIGHT)
         };
-        let off = self.running().filter(meets).map(|part| part.tips_off(falling, ms, see));
-        off.collect::<Option<Vec<usize>>>()?.first().copied()
+        self.running().filter(meets).map(move |part| part.tips_off(falling, ms, see))
     }
 
     /// What an item takes up at a time, ms, that stands at one of its places.

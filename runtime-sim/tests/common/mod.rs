@@ -42,6 +42,7 @@ pub fn line() -> Line {
                 size: [0.135, 0.06],
                 is: Vec::new(),
                 mass: 0.1,
+                deck: None,
             },
             Kind {
                 name: "pump".into(),
@@ -50,6 +51,7 @@ pub fn line() -> Line {
                 size: [0.11, 0.11],
                 is: Vec::new(),
                 mass: 0.1,
+                deck: None,
             },
         ],
         machines: vec![

@@ -78,18 +78,15 @@ fn law(segment: &Segment, carrier: usize, goes_on: bool) -> String {
             .put_all([velocity.x, velocity.y, velocity.z])
             .put_all(gains(*acceleration).into_iter().flatten()),
         Law::Conveyed(conveyed) if matches!(segment.carrier, Carrier::Place { .. }) => {
-            let Point { x, y, z } = conveyed.centre_line.point(conveyed.place, conveyed.across);
+            let Point { x, y, z } = conveyed.on_line(0.0);
             numbers.put_whole(2).put_all([x, y, z, f64::NEG_INFINITY]);
             let carried = conveyed.carried.map(|carried| [carried.out, carried.rate, carried.until]);
             numbers.put_all(carried.unwrap_or_default())
         }
         Law::Conveyed(conveyed) => {
-            numbers.put_whole(2).put_all([
-                conveyed.place,
-                conveyed.across,
-                conveyed.speed,
-                conveyed.stops_at,
-            ]);
+            let (place, across) = conveyed.along_and_across();
+            let stops_at = conveyed.stops_at + place - conveyed.place;
+            numbers.put_whole(2).put_all([place, across, conveyed.speed, stops_at]);
             match conveyed.carried {
                 Some(carried) => numbers.put_all([carried.out, carried.rate, carried.until]),
                 None => &mut numbers,
@@ -112,6 +109,7 @@ fn carrier_json(line: &Line, carrier: Carrier) -> String {
         Carrier::Lane { .. } => "lane",
         Carrier::Grip { .. } => "grip",
         Carrier::Place { .. } => "place",
+        Carrier::On { .. } => "item",
         Carrier::Floor { .. } => "floor",
         Carrier::Sink { .. } => "sink",
         Carrier::Collector => "collector",

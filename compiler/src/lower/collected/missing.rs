@@ -42,8 +42,9 @@ impl Missing<'_> {
         if passed.is_empty() {
             let makers = line.machines.iter().flat_map(|machine| {
                 let from = line.kinds.iter().enumerate();
-                let from = from
-                    .filter(move |(from, _)| made_by(line, machine.processes(), *from).any(|to| to == kind));
+                let from = from.filter(move |(from, _)| {
+                    made_by(line, machine.processes().map(|(_, process)| process), *from).any(|to| to == kind)
+                });
                 from.map(|(_, from)| format!("{} makes it of a `{}`", machine.name, from.name))
             });
             let makers: Vec<String> = makers.collect();

@@ -6,10 +6,11 @@ use crate::layout::json::Json;
 use crate::scenario::Kind;
 use crate::source::{Span, Spanned};
 use crate::spec::parser::is_word;
+use runtime_sim::line::Deck;
 use std::ops::RangeInclusive;
 
 /// Of height, length and width of a part, m.
-pub const LENGTHS: RangeInclusive<f64> = 0.001..=1.0;
+pub const LENGTHS: RangeInclusive<f64> = 0.001..=2.0;
 /// Of a kind that does not say how long and wide its parts are, m: they fit side by side on a tray.
 const SIZE: [f64; 2] = [0.1, 0.1];
 
@@ -33,6 +34,7 @@ pub fn any(span: Span) -> Kind {
         size: SIZE,
         is: Vec::new(),
         mass: MASS,
+        deck: None,
     }
 }
 
@@ -57,7 +59,7 @@ impl Decoder {
     /// With any height if that cannot be read, so that its name is known.
     fn kind(&mut self, json: &Json) -> Option<Kind> {
         let members = self.object(json, "a kind")?;
-        self.unknown_keys(members, &["name", "height", "grasp", "size", "is", "mass"], "a kind");
+        self.unknown_keys(members, &["name", "height", "grasp", "size", "is", "mass", "bears"], "a kind");
         let name = self.required(members, "name", json.span, "a kind");
         let name = name.and_then(|j| self.text(j, "name"));
         if let Some(name) = &name
@@ -78,7 +80,42 @@ impl Decoder {
         });
         let height = height.unwrap_or_default();
         let (grasp, size) = (grasp.unwrap_or(height), size.unwrap_or(SIZE));
-        Some(Kind { name: name?, height, grasp, size, is, mass })
+        let deck = find(members, "bears").and_then(|j| self.deck(j, height, size));
+        Some(Kind { name: name?, height, grasp, size, is, mass, deck })
+    }
+
+    /// Where items lie on a kind of this height and of these lengths.
+    fn deck(&mut self, json: &Json, height: f64, outer: [f64; 2]) -> Option<Deck> {
+        let members = self.object(json, "bears")?;
+        self.unknown_keys(members, &["height", "size"], "bears");
+        let size = match find(members, "size") {
+            Some(inner) => self.footprint(inner)?,
+            None => outer,
+        };
+        let deck = match find(members, "height") {
+            Some(over) => self.number_in(over, "height", 0.0..=*LENGTHS.end())?,
+            None => height,
+        };
+        let has_walls = deck < height;
+        let fits = |axis: usize| size[axis] < outer[axis] || !has_walls && size[axis] == outer[axis];
+        if deck <= height && fits(0) && fits(1) {
+            return Some(Deck { height: deck, size });
+        }
+        let [x, y] = outer;
+        let message = match has_walls {
+            _ if deck > height => format!("items lie {deck} m over the underside of a kind {height} m high"),
+            true => format!("a kind of {x} m by {y} m has no walls around {} m by {} m", size[0], size[1]),
+            false => format!("items lie on {} m by {} m of a kind of {x} m by {y} m", size[0], size[1]),
+        };
+        self.report(
+            Diagnostic::new("E0114", json.span, message)
+                .note("items lie on its upper side, or lower between walls")
+                .help(match has_walls {
+                    true => "write in `size` the lengths between its walls, less than its own ones",
+                    false => "write a height up to its own, and lengths up to its own ones",
+                }),
+        );
+        None
     }
 
     /// Automata and devices write the names of kinds.

@@ -3,6 +3,7 @@
 use super::{CentreLine, Lane, RUN_BY};
 use crate::carrier::Carrier;
 use crate::device::error;
+use crate::item::block::Block;
 use crate::plant::fall::Falling;
 use crate::part::{Begun, Progress, Running, See, World};
 use crate::plant::conveyed::Conveyed;
@@ -179,6 +180,11 @@ impl Moving {
         Some(known.map_or(Motion::Goes { at }, |rider| rider.motion))
     }
 
+    /// Of the last look, ms from the start of the run.
+    pub fn now_ms(&self) -> f64 {
+        self.now_ms as f64
+    }
+
     pub fn place_now(&self, rider: &Rider) -> f64 {
         self.place_at(rider.motion, self.now_ms as f64)
     }
@@ -250,6 +256,18 @@ impl Running for Moving {
         (across.abs() <= self.lane.width / 2.0).then_some((height, carrier))
     }
 
+    fn block(&self, item: usize, ms: f64, see: &See) -> Option<Block> {
+        let carrier = see.items[item].carrier;
+        let Carrier::Lane { across, .. } = carrier else { return None };
+        let centre_line = self.centre_line(see, ms);
+        let place = self.place_at(self.motion(item, &carrier)?, ms);
+        let turn = match centre_line.turns_items() {
+            true => centre_line.frame(place).yaw.to_radians(),
+            false => see.items.turn(item),
+        };
+        Some(Block::new(see.items.shape(item).size, centre_line.point(place, across), turn))
+    }
+
     fn place(&self, item: usize, carrier: &Carrier, see: &See) -> Option<Point> {
         let Carrier::Lane { across, .. } = *carrier else { return None };
         Some(self.centre_line(see, self.now_ms as f64).point(self.place_of(item, carrier)?, across))
@@ -263,6 +281,7 @@ impl Running for Moving {
             centre_line: self.lane.centre_line,
             place: self.place_at(motion, self.now_ms as f64),
             across,
+            offset: Point::default(),
             speed: self.speed_of(motion),
             stops_at: rider.map_or(f64::NEG_INFINITY, |rider| rider.stops_at),
             carried: None,

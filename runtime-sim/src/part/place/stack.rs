@@ -40,6 +40,11 @@ impl Stack {
         Self { floor, items }
     }
 
+    /// Whether what has its underside there does not lie on the floor.
+    pub fn is_over_floor(&self, at: Point) -> bool {
+        at.z > self.floor.middle.z + SAME_HEIGHT
+    }
+
     pub fn block(&self, item: usize) -> Option<&Block> {
         self.items.iter().find(|(other, _)| *other == item).map(|(_, block)| block)
     }
@@ -76,6 +81,11 @@ impl Stack {
         let block = self.block(item)?;
         let found = self.items.iter().find(|(other, others)| *other != item && others.is_in(block));
         found.map(|(other, _)| *other)
+    }
+
+    /// An item in which one would be that has not come yet.
+    pub fn first_in(&self, block: &Block) -> Option<usize> {
+        self.items.iter().find(|(_, other)| other.is_in(block)).map(|(other, _)| *other)
     }
 
     /// The items that may come to rest at another height if one changes and others go, the lowest first: all that lie on

@@ -21,7 +21,7 @@ fn process(settings: Vec<(&'static str, Value)>) -> Result<Process, String> {
 }
 
 fn kind(name: &str) -> Kind {
-    Kind { name: name.into(), height: 0.05, grasp: 0.05, size: [0.1, 0.1], is: Vec::new(), mass: 0.1 }
+    Kind { name: name.into(), height: 0.05, grasp: 0.05, size: [0.1, 0.1], is: Vec::new(), mass: 0.1, deck: None }
 }
 
 fn cycle(settings: Vec<(&'static str, Value)>, place: [u64; 2]) -> Cycle {
@@ -51,14 +51,14 @@ fn rejecting() -> Vec<(&'static str, Value)> {
 
 #[test]
 fn a_share_of_the_items_becomes_another_kind() {
-    let made = each(cycle([triangle(), rejecting()].concat(), [1, 2]), |cycle| cycle.made_of(0));
+    let made = each(cycle([triangle(), rejecting()].concat(), [1, 2]), |cycle| cycle.made_of(0, 0));
     for (kind, share) in [(0, 0.0), (1, 0.93), (2, 0.02), (3, 0.05)] {
         let found = made.iter().filter(|made| **made == kind).count() as f64 / f64::from(CYCLES);
         let noise = 4.0 * (share * (1.0 - share) / f64::from(CYCLES)).sqrt();
         assert!((found - share).abs() <= noise, "{kind}: {found}");
     }
     let all = vec![("time", Value::Number(1.0)), ("rejects", words(&["blank", "scrap"])), ("shares", numbers(&[1.0]))];
-    assert!(each(cycle(all, [1, 2]), |cycle| cycle.made_of(0)).iter().all(|made| *made == 2));
+    assert!(each(cycle(all, [1, 2]), |cycle| cycle.made_of(0, 0)).iter().all(|made| *made == 2));
 }
 
 /// Whether an item is rejected says nothing of its time, nor of the next item.
@@ -74,8 +74,8 @@ fn numbers_drawn_for_one_use_are_not_those_of_another() {
         assert!(same < 100, "{same} times of {other:?} are the same");
     }
     // Correlation of numbers without any: within four of its deviations, 1 / sqrt(n).
-    let drawn = each(cycle(all.clone(), [1, 2]), |cycle| cycle.drawn(Drawn::Time));
-    let rejects = each(cycle(all, [1, 2]), |cycle| cycle.drawn(Drawn::Reject));
+    let drawn = each(cycle(all.clone(), [1, 2]), |cycle| cycle.drawn(Drawn::Time, 0));
+    let rejects = each(cycle(all, [1, 2]), |cycle| cycle.drawn(Drawn::Reject, 0));
     let correlation = |one: &[f64], other: &[f64]| {
         let sum: f64 = one.iter().zip(other).map(|(a, b)| (a - 0.5) * (b - 0.5)).sum();
         sum * 12.0 / f64::from(CYCLES)
@@ -152,11 +152,11 @@ fn wrong_settings_are_refused() {
         (vec![("time", numbers(&[])), kinds], "time is an empty list: write a time, or one for each of `kinds`"),
         (vec![("time", ms(5.0)), ("kinds", words(&["a", "a"]))], "the setting kinds names a twice"),
         (rejects(&[0.5]), "the setting rejects has 2 pairs, and shares 1 numbers"),
-        (rejects(&[0.5, -0.1]), "a share is a number from 0 to 1"),
+        (rejects(&[0.5, -0.1]), "a share is a number from 0 to 1, not -0.1"),
         (rejects(&[0.5, 0.6]), "the shares of the kind blank are more than 1 together"),
         (
             vec![("time", ms(5.0)), ("makes", words(&["blank"]))],
-            "the setting makes names a kind without what becomes of it",
+            "the setting makes names blank without what becomes of it",
         ),
     ];
     for (settings, message) in wrong {

@@ -146,6 +146,7 @@ impl Design {
                     size: [*length, 0.05],
                     is: Vec::new(),
                     mass: 0.1,
+                    deck: None,
                 })
                 .collect(),
             machines,

@@ -1,0 +1,170 @@
+//! Items that lie on other items: in a tray, on a pallet, in a box.
+
+use super::Plant;
+use super::fall::{Falling, SINK};
+use crate::carrier::Carrier;
+use crate::frame::Frame;
+use crate::item::block::Block;
+use crate::part::place::{Floor, Rest, Stack};
+use crate::plant::conveyed::Conveyed;
+use crate::plant::trajectory::Trajectory;
+use crate::point::Point;
+
+/// Where an item comes to rest on another one.
+pub(super) struct OnDeck {
+    pub under: usize,
+    /// In the frame of that item.
+    pub block: Block,
+    pub rest: Rest,
+    /// Of the deck, over the floor of the hall.
+    pub height: f64,
+}
+
+impl Plant {
+    /// What bears an item, or all that is under it; what lies on a gripped item hangs from the tool as that does.
+    pub fn base_carrier(&self, item: usize) -> Carrier {
+        let carrier = self.items[item].carrier;
+        if carrier.item().is_none() {
+            return carrier;
+        }
+        let (base, frame) = self.items.on_base(item);
+        match self.items[base].carrier {
+            Carrier::Grip { machine, part, hang } => {
+                let on_tool = Frame::new(Point::default(), self.items.turn(base).to_degrees());
+                // The tool points down.
+                let Point { x, y, z } = on_tool.point(frame.position);
+                Carrier::Grip { machine, part, hang: hang + Point::new(x, -y, -z) }
+            }
+            carrier => carrier,
+        }
+    }
+
+    /// The machine that bears this, or the item on which it lies.
+    pub(super) fn machine_under(&self, carrier: Carrier) -> Option<usize> {
+        carrier.item().map_or(carrier, |under| self.base_carrier(under)).machine()
+    }
+
+    /// The items on the deck of one; none if it has no deck.
+    pub(super) fn deck(&self, under: usize) -> Option<Stack> {
+        let deck = self.items.shape(under).deck?;
+        let [x, y] = deck.size.map(|length| [-length / 2.0, length / 2.0]);
+        let floor = Floor { middle: Point::new(0.0, 0.0, deck.height), x, y };
+        let loads = self.items.loads_of(under).iter().filter_map(|load| {
+            let Carrier::On { offset, .. } = self.items[*load].carrier else { return None };
+            Some((*load, Block::new(self.items.shape(*load).size, offset, self.items.turn(*load))))
+        });
+        Some(Stack::new(floor, loads.collect()))
+    }
+
+    /// What an item takes up at a time, ms, that lies somewhere, not in a gripper and not on its side.
+    fn block(&self, item: usize, ms: f64) -> Option<Block> {
+        let size = self.items.shape(item).size;
+        match self.items[item].carrier {
+            Carrier::On { item: under, offset } => {
+                let under = self.block(under, ms)?;
+                let turn = under.turn() + self.items.turn(item);
+                Some(Block::new(size, under.frame().point(offset), turn))
+            }
+            Carrier::Floor { point } => Some(Block::new(size, point, self.items.turn(item))),
+            carrier => {
+                let working = self.machines.get(carrier.machine()?)?;
+                working.block(item, ms, &working.see(&self.items, &self.desk))
+            }
+        }
+    }
+
+    /// An item at any place that lies on this one at a time, ms, and not on the floor of its own place.
+    pub(super) fn upper_at_places(&self, item: usize, ms: f64) -> Option<usize> {
+        let Carrier::Place { .. } = self.items[item].carrier else { return None };
+        let under = self.block(item, ms)?;
+        let mut others = self.stacking.iter().flat_map(|machine| self.items.borne_by(*machine)).copied();
+        others.find(|other| {
+            let Carrier::Place { machine, part, offset } = self.items[*other].carrier else { return false };
+            let see = self.machines[machine].see(&self.items, &self.desk);
+            let is_over_floor = see.stack(part).is_some_and(|stack| stack.is_over_floor(offset));
+            is_over_floor && self.block(*other, ms).is_some_and(|other| other.lies_on(&under))
+        })
+    }
+
+    /// The highest deck under an item that falls at a time, ms, and where it comes to rest there.
+    pub(super) fn on_deck(&self, item: usize, falling: &Falling, ms: f64) -> Option<OnDeck> {
+        let own = self.items.with_loads(item);
+        let decks = self.items.placed().filter(|under| self.items.shape(*under).deck.is_some());
+        let found = decks.filter(|under| !own.contains(under)).filter_map(|under| {
+            let block = self.block(under, ms)?;
+            let seen = block.frame().seen(falling.point);
+            let block = Block::new(self.sizes[falling.kind], seen, falling.turn - block.turn());
+            let rest = self.deck(under)?.rest(&block, seen.z + SINK)?;
+            let height = falling.point.z - seen.z + rest.height;
+            let at = Point { z: rest.height, ..seen };
+            let is_below = rest.height <= seen.z + SINK;
+            is_below.then(|| OnDeck { under, block: block.moved_to(at), rest, height })
+        });
+        found.reduce(|best, other| if other.height > best.height { other } else { best })
+    }
+
+    /// Why an item cannot lie where it comes down on another one.
+    pub(super) fn mishap_on(
+        &self,
+        item: usize,
+        OnDeck { under, block, rest, .. }: &OnDeck,
+    ) -> Option<String> {
+        let name = |item: usize| self.names.name(item);
+        let shape = self.items.shape(*under);
+        let stack = self.deck(*under)?;
+        if let Some(other) = stack.first_in(block) {
+            return Some(format!("{} comes down on {}, which lies there", name(item), name(other)));
+        }
+        if let Some(off) = rest.tips_off {
+            return Some(format!("{} tips off {}", name(item), name(off)));
+        }
+        let deck = shape.deck?;
+        let is_on_wall =
+            deck.height < shape.size.z && block.at().z < shape.size.z && !block.is_within(deck.size);
+        is_on_wall.then(|| format!("{} comes down on the edge of {}", name(item), name(*under)))
+    }
+
+    /// Where the underside of an item is that lies on another one; it is rigid with a tool that has gripped that.
+    pub(super) fn place_of_load(&self, item: usize) -> Option<Point> {
+        let (base, frame) = self.items.on_base(item);
+        match self.base_carrier(item) {
+            Carrier::Grip { machine, part, hang } => {
+                let carrier = Carrier::Grip { machine, part, hang };
+                self.machines.get(machine)?.place(base, &carrier, &self.items, &self.desk)
+            }
+            _ => Some(Frame::new(self.place(base)?, self.turn(base).to_degrees()).point(frame.position)),
+        }
+    }
+
+    /// As [`Plant::turn`], of an item that lies on another one.
+    pub(super) fn turn_of_load(&self, item: usize) -> f64 {
+        let (base, frame) = self.items.on_base(item);
+        self.turn(base) + frame.yaw.to_radians()
+    }
+
+    /// As [`Plant::conveyed`], of an item that lies on another one.
+    pub(super) fn load_conveyed(&self, item: usize) -> Option<Conveyed> {
+        let (base, frame) = self.items.on_base(item);
+        let conveyed = self.conveyed(base)?;
+        Some(conveyed.with(frame.position, self.items.turn(base).to_degrees()))
+    }
+
+    /// What lies on an item slides off, if a tool comes to rest that holds this on its side.
+    pub(super) fn spill(&mut self, scan: u64) {
+        if !self.items.has_loads() {
+            return;
+        }
+        let ms = (scan * self.scan_ms) as f64;
+        for number in 0..self.grippers.len() {
+            let (machine, part) = self.grippers[number];
+            let held = self.items.borne_by(machine).iter().copied();
+            let mut held = held.filter(|item| self.items[*item].carrier.part() == Some(part));
+            let Some(tray) = held.find(|item| !self.items.loads_of(*item).is_empty()) else { continue };
+            let rests = self.machines[machine].trajectory(ms as u64).since(ms) == Trajectory::Rests;
+            if rests && self.upper(tray).is_some() {
+                let [load, tray] = [self.items.loads_of(tray)[0], tray].map(|item| self.names.name(item));
+                self.items.crash(machine, format!("{load} slides off {tray}, which is on its side"));
+            }
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! Items that bear others: what comes to lie on them, what goes on with them, and who sees it.
+
+use autogen_tests::{Texts, side_by_side, stepped, text};
+use runtime_sim::carrier::Carrier;
+use runtime_sim::frame::Frame;
+use runtime_sim::plant::Plant;
+use runtime_sim::point::Point;
+use runtime_sim::report::Report;
+use runtime_sim::run::Seen;
+
+/// A tray stands under the end of a conveyor, off which these items fall, four seconds after one another; kinds with their
+/// height, lengths, and what they bear.
+fn trays(kinds: &[(&str, f64, [f64; 2], &str)], items: &[&str], more: &str) -> Texts {
+    let kind = |(name, height, size, bears): &(&str, f64, [f64; 2], &str)| {
+        format!(r#"{{"name": "{name}", "height": {height}, "size": {size:?}{bears}}}"#)
+    };
+    let kinds: Vec<String> = kinds.iter().map(kind).collect();
+    Texts {
+        layout: r#"{"robots": [
+            {"name": "trays", "type": "trays", "pose": [0, 0, 0, 0]},
+            {"name": "chute", "type": "chute", "pose": [0.41, 0.01, 0, 0]}
+        ]}"#
+        .into(),
+        specs: vec![text("tests/fixtures/loads/trays.aut")],
+        scenario: Some(format!(
+            r#"{{"kinds": [{}], "supply": {{"every_s": 4, "items": {{"trays": ["tray"], "chute": {items:?}}}}}, "time_limit_s": 60{more}}}"#,
+            kinds.join(", ")
+        )),
+        ..Texts::default()
+    }
+}
+
+const FLAT: (&str, f64, [f64; 2], &str) = ("tray", 0.02, [0.3, 0.2], r#", "bears": {}"#);
+const PIECE: (&str, f64, [f64; 2], &str) = ("piece", 0.05, [0.08, 0.06], "");
+const BAKED: (&str, f64, [f64; 2], &str) = ("baked", 0.05, [0.08, 0.06], "");
+/// Of all items the tray comes first.
+const TRAY: usize = 0;
+
+fn reason(texts: &Texts) -> String {
+    stepped::report(texts, |_| {}).reason
+}
+
+/// Where an item is in the frame of another one, and how it is turned there, degrees.
+fn seen_from(plant: &Plant, item: usize, on: usize) -> Option<(Point, f64)> {
+    let frame = Frame::new(plant.place(on)?, plant.turn(on).to_degrees());
+    let seen = frame.seen(plant.place(item)?);
+    Some((seen, (plant.turn(item) - plant.turn(on)).to_degrees()))
+}
+
+/// Whether from the scan on in which `item` has come to lie on `on`, it keeps its place there; in how many scans it is there.
+fn keeps_its_place(known: &mut Option<(Point, f64)>, seen: &Seen, item: usize, on: usize) -> u32 {
+    let is_there = seen.plant.items()[item].carrier.item() == Some(on);
+    let Some((place, turn)) = seen_from(seen.plant, item, on).filter(|_| is_there) else { return 0 };
+    let (first, first_turn) = *known.get_or_insert((place, turn));
+    assert!((place - first).length() < 1e-9, "item {item}, scan {}: {place:?}, not {first:?}", seen.scan);
+    let off = (turn - first_turn).rem_euclid(360.0);
+    assert!(!(1e-6..360.0 - 1e-6).contains(&off), "item {item}, scan {}: turned by {off}", seen.scan);
+    1
+}
+
+fn counted(report: &Report) -> Vec<(&str, u64)> {
+    report.sinks.iter().map(|(_, kind, count)| (&kind[..], *count)).collect()
+}
+
+#[test]
+fn what_lies_on_a_tray_goes_with_it_round_corners_and_into_the_sink() {
+    let goal = r#", "goal": {"trays.end": {"tray": 1, "piece": 2}}"#;
+    let texts = trays(&[FLAT, PIECE, BAKED], &["piece", "piece"], goal);
+    let (mut known, mut scans) = ([None; 2], 0);
+    let mut turned = Vec::new();
+    let report = stepped::report(&texts, |seen| {
+        for (known, item) in known.iter_mut().zip([1, 2]) {
+            scans += keeps_its_place(known, seen, item, TRAY);
+        }
+        turned.push(seen.plant.turn(TRAY).to_degrees());
+    });
+    assert_eq!(report.reason, "all items collected");
+    assert_eq!(counted(&report), [("tray", 1), ("piece", 2)]);
+    assert!(scans > 1000, "{scans}");
+    assert!(turned.iter().any(|turn| (turn - 90.0).abs() < 1e-6), "it has gone round the corner");
+    let height = |known: Option<(Point, f64)>| known.map(|(place, _)| (place.z * 1000.0).round());
+    assert_eq!(known.map(height), [Some(20.0), Some(70.0)]);
+}
+
+#[test]
+fn what_has_no_place_on_a_tray_ends_the_run() {
+    let of = |bears: &'static str, items: &[&str]| {
+        let tray = ("tray", 0.1, [0.3, 0.2], bears);
+        reason(&trays(&[tray, PIECE, ("long", 0.05, [0.28, 0.06], ""), BAKED], items, ""))
+    };
+    const ENDS: &str = "time limit reached";
+    let middle_on_deck = r#", "bears": {"size": [0.15, 0.2]}"#;
+    let walls = |inner: &'static str| -> &'static str {
+        match inner {
+            "wide" => r#", "bears": {"height": 0.01, "size": [0.1, 0.09]}"#,
+            _ => r#", "bears": {"height": 0.01, "size": [0.1, 0.07]}"#,
+        }
+    };
+    assert_eq!(
+        of("", &["piece"]),
+        "interlock of trays: piece_1 comes down on tray_1, which lies on a conveyor"
+    );
+    assert_eq!(of(r#", "bears": {}"#, &["piece", "long"]), ENDS);
+    assert_eq!(
+        of(middle_on_deck, &["long"]),
+        "interlock of trays: long_1 comes down on tray_1, which lies on a conveyor"
+    );
+    assert_eq!(of(middle_on_deck, &["piece", "long"]), "interlock of trays: long_1 tips off piece_1");
+    // It lies 10 mm beside the middle: 40 mm reach 50 mm along, 30 mm reach 40 mm across.
+    assert_eq!(of(walls("wide"), &["piece"]), ENDS);
+    assert_eq!(
+        of(walls("narrow"), &["piece"]),
+        "interlock of trays: piece_1 comes down on the edge of tray_1"
+    );
+}
+
+/// The beam is over the tray: it sees what stands on it, from its own front edge to its own rear edge.
+#[test]
+fn a_beam_sees_what_lies_on_a_tray() {
+    let texts = trays(&[FLAT, PIECE, BAKED], &["piece"], "");
+    let mut rises = Vec::new();
+    stepped::report(&texts, |seen| {
+        let sees = seen.inputs[0][0] != 0.0;
+        let is_in_beam = seen.plant.place(1).is_some_and(|place| {
+            let is_on_first = seen.plant.place(TRAY).is_some_and(|tray| tray.x < 1.0 && tray.z < 0.31);
+            is_on_first && place.z < 0.44 && (place.x - 0.8).abs() < 0.04 - 1e-6
+        });
+        let is_at_edge = seen.plant.place(1).is_some_and(|place| ((place.x - 0.8).abs() - 0.04).abs() < 1e-6);
+        assert!(is_at_edge || sees == is_in_beam, "scan {}", seen.scan);
+        if sees && rises.last().is_none_or(|(_, last)| *last + 1 != seen.scan) {
+            rises.push((seen.inputs[0][1..4].to_vec(), seen.scan));
+        } else if sees && let Some((_, last)) = rises.last_mut() {
+            *last = seen.scan;
+        }
+    });
+    // Of the kinds tray, piece and baked.
+    let kinds: Vec<_> = rises.iter().map(|(kinds, _)| &kinds[..]).collect();
+    assert_eq!(kinds, [[0.0, 1.0, 0.0]]);
+}
+
+#[test]
+fn a_process_works_on_all_that_lies_on_a_tray() {
+    let baking = |process: &str, goal: &str| {
+        let goal = format!(r#", "goal": {{"trays.end": {goal}}}"#);
+        let texts = trays(&[FLAT, PIECE, BAKED], &["piece", "piece"], &goal);
+        let start = ("-> Baking {}", "-> Baking { bake := true; }");
+        stepped::report(
+            &texts.replaced(&[start, ("kinds: [piece]; makes: [piece, baked];", process)]),
+            |_| {},
+        )
+    };
+    let all = baking("kinds: [piece]; makes: [piece, baked];", r#"{"tray": 1, "baked": 2}"#);
+    assert_eq!((&*all.reason, counted(&all)), ("all items collected", vec![("tray", 1), ("baked", 2)]));
+    let one = baking("joins: [piece];", r#"{"tray": 1, "piece": 1}"#);
+    assert_eq!((&*one.reason, counted(&one)), ("all items collected", vec![("tray", 1), ("piece", 1)]));
+    let none = baking("joins: [baked];", r#"{"tray": 1, "piece": 1}"#);
+    assert_eq!(none.reason, "interlock of trays: the process oven was started without a baked on it");
+    let neither = baking("kinds: [baked];", r#"{"tray": 1, "piece": 1}"#);
+    assert_eq!(neither.reason, "interlock of trays: the process oven was started without a time for a tray");
+}
+
+#[test]
+fn a_person_takes_a_tray_with_all_that_lies_on_it() {
+    let removed = |item: &str| {
+        let operator = format!(r#", "operator": [{{"remove": "{item}", "at_s": 14}}]"#);
+        stepped::report(&trays(&[FLAT, PIECE, BAKED], &["piece", "piece"], &operator), |_| {})
+    };
+    let all = removed("tray_1");
+    assert!(all.items.is_empty() && counted(&all).is_empty(), "{:?}", all.items);
+    let upper = removed("piece_2");
+    assert_eq!(counted(&upper), [("tray", 1), ("piece", 1)]);
+    let lower = removed("piece_1");
+    assert_eq!(counted(&lower), [("tray", 1), ("piece", 2)]);
+    assert!(lower.notes.iter().any(|note| note.contains("piece_2")), "{:?}", lower.notes);
+}
+
+/// The robot takes the full box, and puts it down in another place of the conveyor, turned as it was.
+#[test]
+fn a_gripper_takes_a_box_with_all_that_lies_in_it() {
+    let lifting = "-> Lifting {}
+    }
+    resume state Lifting = sequence {
+        move(box_at + up(over));
+        move(box_at);
+        grip := true;
+        until attached at most 1 s;
+        move(box_at + up(over));
+        move(box_at + point(0.1, 0, over));
+        move(box_at + point(0.1, 0, 0.001));
+        grip := false;
+        until not attached at most 1 s;
+        move(box_at + up(over));
+    } -> Releasing { hold_back := false; } else Lifting { failures += 1; }
+";
+    let texts = side_by_side("scenes/packing").replaced(&[
+        ("-> Releasing { hold_back := false; }\n    }\n", lifting),
+        (
+            "    /// Attempts that failed.\n",
+            "    define box_at = spots[0] + point(0.06, 0.05, 0.055);\n    /// Attempts that failed.\n",
+        ),
+    ]);
+    let first_box = 8;
+    let (mut known, mut in_hand) = ([None; 4], 0);
+    let report = stepped::report(&texts, |seen| {
+        for (item, known) in known.iter_mut().enumerate() {
+            let there = keeps_its_place(known, seen, item, first_box);
+            in_hand += if is_gripped(seen, first_box) { there } else { 0 };
+        }
+    });
+    assert_eq!(report.reason, "all items collected");
+    assert!(in_hand > 400, "{in_hand}");
+}
+
+fn is_gripped(seen: &Seen, item: usize) -> bool {
+    matches!(seen.plant.items()[item].carrier, Carrier::Grip { .. })
+}
+
+#[test]
+fn a_piece_that_meets_the_wall_of_a_box_is_a_contact() {
+    let texts = side_by_side("scenes/packing");
+    let off = ("point(-0.06, -0.05, 0)", "point(-0.06, -0.08, 0)");
+    let report = stepped::report(&texts.replaced(&[off]), |_| {});
+    assert!(
+        report.reason.starts_with("collision of packer (carton_1) with packer (piece_1)"),
+        "{}",
+        report.reason
+    );
+}
