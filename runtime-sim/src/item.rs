@@ -8,7 +8,9 @@ use crate::carrier::Carrier;
 use crate::event::{Event, Log, OrderChange};
 use crate::frame::Frame;
 use crate::line::{Deck, Line};
+use crate::part::place::{Floor, Stack};
 use crate::point::Point;
+use block::Block;
 use states::States;
 use std::collections::BTreeMap;
 use std::ops::Index;
@@ -174,6 +176,18 @@ impl Items {
         let Carrier::On { item: under, offset } = self[item].carrier else { return (item, Frame::default()) };
         let (base, frame) = self.on_base(under);
         (base, frame.then(Frame::new(offset, self.turn(item).to_degrees())))
+    }
+
+    /// The items on the deck of one, in its frame; none if it has no deck.
+    pub fn deck(&self, under: usize) -> Option<Stack> {
+        let deck = self.shape(under).deck?;
+        let [x, y] = deck.size.map(|length| [-length / 2.0, length / 2.0]);
+        let floor = Floor { middle: Point::new(0.0, 0.0, deck.height), x, y };
+        let loads = self.loads_of(under).iter().filter_map(|load| {
+            let Carrier::On { offset, .. } = self[*load].carrier else { return None };
+            Some((*load, Block::new(self.shape(*load).size, offset, self.turn(*load))))
+        });
+        Some(Stack::new(floor, loads.collect()))
     }
 
     pub fn shape(&self, item: usize) -> Shape {

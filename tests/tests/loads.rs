@@ -159,6 +159,52 @@ fn a_process_works_on_all_that_lies_on_a_tray() {
     assert_eq!(neither.reason, "interlock of trays: the process oven was started without a time for a tray");
 }
 
+/// The items on a tray are the lower and the upper one of two pieces.
+#[test]
+fn what_lies_on_a_tray_that_a_process_changes_comes_to_rest_again() {
+    let end = |process: &str| {
+        let deep = ("deep", 0.1, [0.3, 0.2], r#", "bears": {"height": 0.01, "size": [0.28, 0.18]}"#);
+        let kinds = [FLAT, PIECE, ("thick", 0.08, [0.08, 0.06], ""), deep, ("plain", 0.02, [0.3, 0.2], "")];
+        let texts = trays(&kinds, &["piece", "piece"], "").replaced(&[
+            ("-> Baking {}", "-> Baking { bake := true; }"),
+            ("kinds: [piece]; makes: [piece, baked];", process),
+        ]);
+        let mut heights = [None; 2];
+        let report = stepped::report(&texts, |seen| {
+            for (height, item) in heights.iter_mut().zip([1, 2]) {
+                if let Some((place, _)) = seen_from(seen.plant, item, TRAY) {
+                    *height = Some((place.z * 1000.0).round());
+                }
+            }
+        });
+        (report.reason, heights)
+    };
+    let ends = |reason: &str, heights: [f64; 2]| (reason.to_string(), heights.map(Some));
+    const LIMIT: &str = "time limit reached";
+    assert_eq!(end("makes: [piece, thick];"), ends(LIMIT, [20.0, 100.0]));
+    assert_eq!(end("makes: [tray, deep];"), ends(LIMIT, [10.0, 60.0]));
+    assert_eq!(end("joins: [piece];").1[1], Some(20.0));
+    let plain = "interlock of trays: the process oven leaves a piece on a plain, which bears nothing";
+    assert_eq!(end("makes: [tray, plain];").0, plain);
+}
+
+/// A box stands at a place where items lie on one another: what comes down into it lies in it, not on its upper side.
+#[test]
+fn a_box_on_a_stack_is_filled() {
+    let tray = ("tray", 0.1, [0.3, 0.2], r#", "bears": {"height": 0.01, "size": [0.28, 0.18]}"#);
+    let mut texts = trays(&[tray, PIECE, BAKED], &["piece", "piece"], "");
+    texts.layout = texts.layout.replace(r#""type": "trays""#, r#""type": "table""#);
+    let mut heights = Vec::new();
+    let report = stepped::report(&texts, |seen| {
+        let height = |item| Some((seen.plant.place(item)?.z * 1000.0).round());
+        heights = (0..3).map(height).collect();
+    });
+    assert_eq!(
+        (&*report.reason, heights),
+        ("time limit reached", vec![Some(200.0), Some(210.0), Some(260.0)])
+    );
+}
+
 #[test]
 fn a_person_takes_a_tray_with_all_that_lies_on_it() {
     let removed = |item: &str| {

@@ -1,6 +1,7 @@
 //! What takes its time with an item at a place or on a lane: milling, welding, testing.
 
 mod distribution;
+mod loaded;
 mod stacked;
 
 use distribution::{Distribution, TIMES, Times};
@@ -511,6 +512,9 @@ impl Running for Cycle {
             let joined = self.joined(item, &world.see());
             let joined = joined.map_err(|kind| format!("a {kind} was taken from {}", self.name));
             let before = world.see().stack(self.process.on);
+            let trays = world.items.with_loads(item).into_iter();
+            let trays = trays.filter(|tray| !world.items.loads_of(*tray).is_empty());
+            let decks: Vec<_> = trays.filter_map(|tray| Some((tray, world.items.deck(tray)?))).collect();
             let joined = joined.unwrap_or_else(|reason| {
                 world.crash(reason);
                 Vec::new()
@@ -525,6 +529,11 @@ impl Running for Cycle {
                 let kind = world.items[item].kind;
                 if self.times[kind].is_some() {
                     world.items.remake(item, self.made_of(kind, number as u64));
+                }
+            }
+            for (tray, before) in decks {
+                if let Err(reason) = self.settle_on_deck(tray, &before, world) {
+                    world.crash(reason);
                 }
             }
             if let Some(before) = before

@@ -123,6 +123,14 @@ impl<'a> World<'a> {
         self.items.shift(item, carrier, point);
     }
 
+    /// An item moves on what bears it.
+    pub fn shift_on(&mut self, item: usize, to: Carrier) {
+        let base = self.items.base_of(item);
+        let part = self.items[base].carrier.part();
+        let point = part.and_then(|part| self.see().place(part, base)).unwrap_or_default();
+        self.items.shift(item, to, point);
+    }
+
     fn at_place(&self, item: usize, part: usize, offset: Point) -> (Carrier, Point) {
         let carrier = Carrier::Place { machine: self.machine, part, offset };
         let see = self.see();

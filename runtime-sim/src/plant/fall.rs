@@ -3,6 +3,7 @@
 use super::Plant;
 use super::loads::OnDeck;
 use crate::carrier::Carrier;
+use crate::item::block::SAME_HEIGHT;
 use crate::point::Point;
 
 /// An item that is let go at most so far below a surface lies on it: the reach of a contact, twice, m.
@@ -33,10 +34,19 @@ pub fn fall(plant: &Plant, item: usize, falling: &Falling, ms: f64) -> (Carrier,
             lands = Some((height, carrier));
         }
     }
-    if let Some(OnDeck { under, block, height, .. }) = plant.on_deck(item, falling, ms)
-        && lands.is_none_or(|(highest, _)| height >= highest)
-    {
-        lands = Some((height, Carrier::On { item: under, offset: block.at() }));
+    if let Some(OnDeck { under, block, height, rim, .. }) = plant.on_deck(item, falling, ms) {
+        // The place of a box takes its upper side for its surface.
+        let is_at_place = |carrier: &Carrier| {
+            let base = plant.base_carrier(under);
+            matches!(carrier, Carrier::Place { .. })
+                && [carrier.machine(), carrier.part()] == [base.machine(), base.part()]
+        };
+        let is_lower = |(surface, carrier): &(f64, Carrier)| {
+            *surface <= height || is_at_place(carrier) && *surface <= rim + SAME_HEIGHT
+        };
+        if lands.as_ref().is_none_or(is_lower) {
+            lands = Some((height, Carrier::On { item: under, offset: block.at() }));
+        }
     }
     match (lands, to_floor(plant, point)) {
         (Some((height, carrier)), (_, floor)) if height >= floor.z => (carrier, Point { z: height, ..point }),

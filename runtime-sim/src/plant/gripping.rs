@@ -281,7 +281,7 @@ impl Plant {
     pub(super) fn lies_on(&self, item: usize, ms: f64) -> Option<usize> {
         let carrier = self.items[item].carrier;
         if let Carrier::On { item: under, .. } = carrier {
-            return self.deck(under)?.lies_on(item);
+            return self.items.deck(under)?.lies_on(item);
         }
         self.upper_at_places(item, ms)
     }

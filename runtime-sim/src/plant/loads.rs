@@ -5,7 +5,7 @@ use super::fall::{Falling, SINK};
 use crate::carrier::Carrier;
 use crate::frame::Frame;
 use crate::item::block::Block;
-use crate::part::place::{Floor, Rest, Stack};
+use crate::part::place::Rest;
 use crate::plant::conveyed::Conveyed;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
@@ -16,8 +16,10 @@ pub(super) struct OnDeck {
     /// In the frame of that item.
     pub block: Block,
     pub rest: Rest,
-    /// Of the deck, over the floor of the hall.
+    /// Of where it comes to rest, over the floor of the hall.
     pub height: f64,
+    /// Of the upper side of that item, over the floor of the hall.
+    pub rim: f64,
 }
 
 impl Plant {
@@ -42,18 +44,6 @@ impl Plant {
     /// The machine that bears this, or the item on which it lies.
     pub(super) fn machine_under(&self, carrier: Carrier) -> Option<usize> {
         carrier.item().map_or(carrier, |under| self.base_carrier(under)).machine()
-    }
-
-    /// The items on the deck of one; none if it has no deck.
-    pub(super) fn deck(&self, under: usize) -> Option<Stack> {
-        let deck = self.items.shape(under).deck?;
-        let [x, y] = deck.size.map(|length| [-length / 2.0, length / 2.0]);
-        let floor = Floor { middle: Point::new(0.0, 0.0, deck.height), x, y };
-        let loads = self.items.loads_of(under).iter().filter_map(|load| {
-            let Carrier::On { offset, .. } = self.items[*load].carrier else { return None };
-            Some((*load, Block::new(self.items.shape(*load).size, offset, self.items.turn(*load))))
-        });
-        Some(Stack::new(floor, loads.collect()))
     }
 
     /// What an item takes up at a time, ms, that lies somewhere, not in a gripper and not on its side.
@@ -92,13 +82,14 @@ impl Plant {
         let decks = self.items.placed().filter(|under| self.items.shape(*under).deck.is_some());
         let found = decks.filter(|under| !own.contains(under)).filter_map(|under| {
             let block = self.block(under, ms)?;
+            let rim = block.top();
             let seen = block.frame().seen(falling.point);
             let block = Block::new(self.sizes[falling.kind], seen, falling.turn - block.turn());
-            let rest = self.deck(under)?.rest(&block, seen.z + SINK)?;
+            let rest = self.items.deck(under)?.rest(&block, seen.z + SINK)?;
             let height = falling.point.z - seen.z + rest.height;
             let at = Point { z: rest.height, ..seen };
             let is_below = rest.height <= seen.z + SINK;
-            is_below.then(|| OnDeck { under, block: block.moved_to(at), rest, height })
+            is_below.then(|| OnDeck { under, block: block.moved_to(at), rest, height, rim })
         });
         found.reduce(|best, other| if other.height > best.height { other } else { best })
     }
@@ -111,7 +102,7 @@ impl Plant {
     ) -> Option<String> {
         let name = |item: usize| self.names.name(item);
         let shape = self.items.shape(*under);
-        let stack = self.deck(*under)?;
+        let stack = self.items.deck(*under)?;
         if let Some(other) = stack.first_in(block) {
             return Some(format!("{} comes down on {}, which lies there", name(item), name(other)));
         }

@@ -25,33 +25,34 @@ pub struct Over {
 
 impl Moving {
     /// An item on this lane, then all that lies on it.
-    pub fn over<'a>(
-        &self,
-        base: usize,
-        motion: Motion,
-        items: &'a Items,
-    ) -> impl Iterator<Item = Over> + use<'a> {
+    pub fn over(&self, base: usize, motion: Motion, items: &Items) -> impl Iterator<Item = Over> + use<> {
         let shape = items.shape(base);
         let half = self.lane().lengths_of([shape.size.x, shape.size.y])[0] / 2.0;
         let own = Over { item: base, base, motion, ahead: 0.0, half, top: shape.size.z };
         let loads = match items.loads_of(base) {
             [] => Vec::new(),
-            _ => items.with_loads(base).split_off(1),
+            _ => self.loads(base, motion, items),
         };
+        std::iter::once(own).chain(loads)
+    }
+
+    /// All that lies on an item on this lane, and on that.
+    fn loads(&self, base: usize, motion: Motion, items: &Items) -> Vec<Over> {
+        let centre_line = &self.lane().centre_line;
         // Turned as the base is on the lane, x ahead.
-        let turn = match self.lane().centre_line.turns_items() {
+        let turn = match centre_line.turns_items() {
             true => 0.0,
-            false => items.turn(base).to_degrees() - self.lane().centre_line.frame(0.0).yaw,
+            false => items.turn(base).to_degrees() - centre_line.frame(0.0).yaw,
         };
         let on_lane = Frame::new(Point::default(), turn);
-        let loads = loads.into_iter().map(move |item| {
+        let over = |item: usize| {
             let frame = on_lane.then(items.on_base(item).1);
             let size = items.shape(item).size;
             let [half, _] = Block::new(size, frame.position, frame.yaw.to_radians()).half_extents();
             let Point { x: ahead, z, .. } = frame.position;
             Over { item, base, motion, ahead, half, top: z + size.z }
-        });
-        std::iter::once(own).chain(loads)
+        };
+        items.with_loads(base).into_iter().skip(1).map(over).collect()
     }
 
     /// The place of its middle now.
