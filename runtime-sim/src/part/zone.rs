@@ -71,33 +71,37 @@ impl Seeing {
         self.zone.half - over.half.max(self.zone.part_half)
     }
 
-    /// All on the lane, and on other items there.
-    fn all<'a>(&self, moving: &'a Moving, see: &See<'a>) -> impl Iterator<Item = Over> + 'a {
-        let items = see.items;
-        see.borne_by(self.zone.lane).flat_map(move |item| {
-            let motion = moving.motion(item, &items[item].carrier);
-            motion.into_iter().flat_map(move |motion| moving.over(item, motion, items))
-        })
+    /// Takes all on the lane, and on other items there.
+    fn each(&self, moving: &Moving, see: &See, mut take: impl FnMut(&Over)) {
+        for item in see.borne_by(self.zone.lane) {
+            let Some(motion) = moving.motion(item, &see.items[item].carrier) else { continue };
+            take(&moving.over_itself(item, motion, see.items));
+            if !see.items.loads_of(item).is_empty() {
+                moving.over_loads(item, motion, see.items).iter().for_each(&mut take);
+            }
+        }
     }
 
-    /// What lies wholly in the field, and where along the lane.
-    fn seen<'a>(&'a self, moving: &'a Moving, see: &See<'a>) -> impl Iterator<Item = (Over, f64)> + 'a {
-        let middle = self.middle(moving);
-        self.all(moving, see).filter_map(move |over| {
-            let along = moving.place_of_over(&over);
-            ((along - middle?).abs() <= self.farthest(&over)).then_some((over, along))
-        })
+    /// Takes what lies wholly in the field, with where it is along the lane.
+    fn each_seen(&self, moving: &Moving, see: &See, mut take: impl FnMut(&Over, f64)) {
+        let Some(middle) = self.middle(moving) else { return };
+        self.each(moving, see, |over| {
+            let along = moving.place_of_over(over);
+            if (along - middle).abs() <= self.farthest(over) {
+                take(over, along);
+            }
+        });
     }
 
     /// Of each of so many kinds the foremost one.
     fn foremost(&self, kinds: usize, moving: &Moving, see: &See) -> Vec<Option<(Over, f64)>> {
         let mut foremost: Vec<Option<(Over, f64)>> = vec![None; kinds];
-        for (over, along) in self.seen(moving, see) {
+        self.each_seen(moving, see, |over, along| {
             let of_kind = &mut foremost[see.items[over.item].kind];
             if of_kind.is_none_or(|(_, other)| along < other) {
-                *of_kind = Some((over, along));
+                *of_kind = Some((*over, along));
             }
-        }
+        });
         foremost
     }
 
@@ -116,19 +120,20 @@ impl Running for Seeing {
     fn next_change(&self, see: &See, now_ms: u64) -> f64 {
         let Some(moving) = see.lane(self.zone.lane) else { return f64::INFINITY };
         let Some(middle) = self.middle(moving) else { return f64::INFINITY };
-        let times = self.all(moving, see).flat_map(|over| {
-            let far = self.farthest(&over);
-            let comes_to = |place: f64| moving.over_comes_to(&over, place, now_ms as f64);
-            [comes_to(middle - far), comes_to(middle + far)]
+        let mut next_ms = f64::INFINITY;
+        self.each(moving, see, |over| {
+            let far = self.farthest(over);
+            let comes_to = |place: f64| moving.over_comes_to(over, place, now_ms as f64);
+            next_ms = next_ms.min(comes_to(middle - far)).min(comes_to(middle + far));
         });
-        times.fold(f64::INFINITY, f64::min)
+        next_ms
     }
 
     fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
         out.fill(0.0);
         let Some(moving) = see.lane(self.zone.lane) else { return };
         if signal == 0 {
-            self.seen(moving, see).for_each(|(over, _)| out[see.items[over.item].kind] = 1.0);
+            self.each_seen(moving, see, |over, _| out[see.items[over.item].kind] = 1.0);
             return;
         }
         for (kind, foremost) in self.foremost(out.len() / 3, moving, see).into_iter().enumerate() {

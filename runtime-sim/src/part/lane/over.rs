@@ -26,18 +26,22 @@ pub struct Over {
 impl Moving {
     /// An item on this lane, then all that lies on it.
     pub fn over(&self, base: usize, motion: Motion, items: &Items) -> impl Iterator<Item = Over> + use<> {
-        let shape = items.shape(base);
-        let half = self.lane().lengths_of([shape.size.x, shape.size.y])[0] / 2.0;
-        let own = Over { item: base, base, motion, ahead: 0.0, half, top: shape.size.z };
         let loads = match items.loads_of(base) {
             [] => Vec::new(),
-            _ => self.loads(base, motion, items),
+            _ => self.over_loads(base, motion, items),
         };
-        std::iter::once(own).chain(loads)
+        std::iter::once(self.over_itself(base, motion, items)).chain(loads)
+    }
+
+    /// An item on this lane.
+    pub fn over_itself(&self, base: usize, motion: Motion, items: &Items) -> Over {
+        let size = items.shape(base).size;
+        let half = self.lane().lengths_of([size.x, size.y])[0] / 2.0;
+        Over { item: base, base, motion, ahead: 0.0, half, top: size.z }
     }
 
     /// All that lies on an item on this lane, and on that.
-    fn loads(&self, base: usize, motion: Motion, items: &Items) -> Vec<Over> {
+    pub fn over_loads(&self, base: usize, motion: Motion, items: &Items) -> Vec<Over> {
         let centre_line = &self.lane().centre_line;
         // Turned as the base is on the lane, x ahead.
         let turn = match centre_line.turns_items() {
