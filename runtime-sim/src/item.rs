@@ -2,12 +2,13 @@
 
 pub mod block;
 pub mod footprint;
+mod solids;
 mod states;
 
 use crate::carrier::Carrier;
 use crate::event::{Event, Log, OrderChange};
 use crate::frame::Frame;
-use crate::line::{Deck, Line};
+use crate::line::{Deck, Kind, Line};
 use crate::part::place::{Floor, Stack};
 use crate::point::Point;
 use block::Block;
@@ -24,10 +25,16 @@ pub struct Item {
 
 /// Of the items of a kind, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shape {
+pub struct Dimensions {
     /// Along x and y as it appears on a belt, and upwards.
     pub size: Point,
     pub deck: Option<Deck>,
+}
+
+impl Dimensions {
+    pub fn of(kind: &Kind) -> Self {
+        Self { size: kind.lengths(), deck: kind.deck }
+    }
 }
 
 /// What the items of a line's supply are called.
@@ -76,7 +83,7 @@ pub struct Items {
     /// Of an item those that lie on it, in the order in which they came.
     loads: BTreeMap<usize, Vec<usize>>,
     /// Of the kinds.
-    shapes: Arc<[Shape]>,
+    dimensions: Arc<[Dimensions]>,
     /// Of an item how it is turned about the vertical on what bears it, rad; left out if it is not.
     turns: BTreeMap<usize, f64>,
     /// Items that each machine bears, in the order in which they came.
@@ -104,7 +111,7 @@ impl Items {
             states: States::new(line.scenario.supply.iter().flat_map(|supply| supply.items.iter().copied())),
             parts: BTreeMap::new(),
             loads: BTreeMap::new(),
-            shapes: line.kinds.iter().map(|kind| Shape { size: kind.lengths(), deck: kind.deck }).collect(),
+            dimensions: line.kinds.iter().map(Dimensions::of).collect(),
             turns: BTreeMap::new(),
             borne: vec![Vec::new(); line.machines.len()],
             fallen: Vec::new(),
@@ -147,19 +154,20 @@ impl Items {
         self.loads.get(&item).map_or(&[], Vec::as_slice)
     }
 
+    /// Whether any item lies on another one.
     pub fn has_loads(&self) -> bool {
         !self.loads.is_empty()
     }
 
     /// An item with all that lies on it, and on that, this one first.
-    pub fn with_loads(&self, item: usize) -> Vec<usize> {
-        let mut all = vec![item];
+    pub fn with_loads(&self, item: usize) -> impl Iterator<Item = usize> + use<> {
+        let mut loads = self.loads_of(item).to_vec();
         let mut next = 0;
-        while let Some(&item) = all.get(next) {
-            all.extend(self.loads_of(item));
+        while let Some(&load) = loads.get(next) {
+            loads.extend(self.loads_of(load));
             next += 1;
         }
-        all
+        std::iter::once(item).chain(loads)
     }
 
     /// The item at the bottom that bears this one, which is this one if it lies on no other.
@@ -180,18 +188,29 @@ impl Items {
 
     /// The items on the deck of one, in its frame; none if it has no deck.
     pub fn deck(&self, under: usize) -> Option<Stack> {
-        let deck = self.shape(under).deck?;
+        let deck = self.dimensions(under).deck?;
         let [x, y] = deck.size.map(|length| [-length / 2.0, length / 2.0]);
         let floor = Floor { middle: Point::new(0.0, 0.0, deck.height), x, y };
         let loads = self.loads_of(under).iter().filter_map(|load| {
             let Carrier::On { offset, .. } = self[*load].carrier else { return None };
-            Some((*load, Block::new(self.shape(*load).size, offset, self.turn(*load))))
+            Some((*load, Block::new(self.dimensions(*load).size, offset, self.turn(*load))))
         });
         Some(Stack::new(floor, loads.collect()))
     }
 
-    pub fn shape(&self, item: usize) -> Shape {
-        self.shapes[self[item].kind]
+    /// Whether an item on another one is in a wall of that.
+    pub fn is_in_wall(&self, item: usize) -> bool {
+        let Carrier::On { item: under, offset } = self[item].carrier else { return false };
+        let on_under = Frame::new(offset, self.turn(item).to_degrees());
+        let walls = self.dimensions(under).solids();
+        let solids = self.dimensions(item).solids();
+        let mut solids = solids.iter().map(|solid| solid.in_frame(on_under));
+        solids.any(|solid| walls.iter().any(|wall| solid.is_in(wall)))
+    }
+
+    /// As it is now: what a process makes of an item has those of its new kind.
+    pub fn dimensions(&self, item: usize) -> Dimensions {
+        self.dimensions[self[item].kind]
     }
 
     /// Number of machines that could bear items.

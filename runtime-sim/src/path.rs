@@ -25,6 +25,20 @@ pub struct Path {
     pub segments: Vec<Segment>,
     /// Other kinds that the item became, each with its time, ms.
     pub becomes: Vec<(f64, usize)>,
+    /// When it lay on other items.
+    pub loads: Vec<OnItem>,
+}
+
+/// From one time to another one an item lay on another one, rigid with it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OnItem {
+    /// ms.
+    pub begin_ms: f64,
+    pub end_ms: f64,
+    /// That item.
+    pub under: usize,
+    /// How it was turned about the vertical on that, to the left, rad.
+    pub turn: f64,
 }
 
 /// Times are milliseconds from the start of the run. An item that leaves the line ends with a segment without

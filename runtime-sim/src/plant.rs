@@ -24,7 +24,7 @@ use crate::frame::Frame;
 use crate::item::{Items, Names};
 use crate::kinematics::arm::Joints;
 use crate::kinematics::wrapped;
-use crate::line::{Kind, Line, Obstacle};
+use crate::line::{Line, Obstacle};
 use crate::memory::Memory;
 use crate::part::Primitive;
 use crate::part::orders::Desk;
@@ -51,6 +51,8 @@ pub(crate) const EARLY_MS: f64 = 1e-6;
 pub struct Plant {
     scan_ms: u64,
     scan: u64,
+    /// To the start of this scan the machines have moved.
+    moved_to: u64,
     machines: Vec<Working>,
     conveying: Conveying,
     items: Items,
@@ -58,8 +60,6 @@ pub struct Plant {
     names: Names,
     /// Of the kinds: over the underside of an item, where it is gripped, m.
     grasps: Vec<f64>,
-    /// Of items of the kinds, m.
-    sizes: Vec<Point>,
     obstacles: Vec<Obstacle>,
     desk: Desk,
     images: Vec<Vec<f64>>,
@@ -112,12 +112,12 @@ impl Plant {
         let mut plant = Self {
             scan_ms: u64::from(line.scan_ms),
             scan: 0,
+            moved_to: 0,
             machines,
             conveying: Conveying::new(line),
             items,
             names,
             grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
-            sizes: line.kinds.iter().map(Kind::lengths).collect(),
             obstacles: line.obstacles.clone(),
             desk,
             images,
@@ -192,6 +192,7 @@ impl Plant {
         let (machines, mut shared) = self.split(scan);
         machines.iter_mut().for_each(|machine| machine.phase.go_on_to(next_ms as f64));
         working(machines).for_each(|machine| machine.advance(&mut shared));
+        self.moved_to = scan;
         self.slip(scan);
         self.grip(scan);
         self.remove(scan);
@@ -241,16 +242,16 @@ impl Plant {
         work(&mut self.conveying, &mut among, self.scan_ms)
     }
 
-    fn fall(&mut self, Falls { item, from, ms }: Falls) {
-        let landing = self.landing(item, from, ms);
+    fn fall(&mut self, Falls { item, from, turn, ms }: Falls) {
+        let landing = self.landing(item, self.falling(item, from, turn), ms);
         if let Some(Mishap { machine, reason }) = self.mishap(&landing) {
             self.items.crash(machine, reason);
         }
-        self.hand_over(item, landing.carrier, landing.point);
+        self.hand_over(item, turn, landing.carrier, landing.point, ms);
     }
 
-    fn falling(&self, item: usize, point: Point) -> Falling {
-        Falling { point, upper: self.upper(item), kind: self.items[item].kind, turn: self.turn(item) }
+    fn falling(&self, item: usize, point: Point, turn: f64) -> Falling {
+        Falling { point, upper: self.upper(item), size: self.items.dimensions(item).size, turn }
     }
 
     fn slip(&mut self, scan: u64) {
@@ -265,12 +266,13 @@ impl Plant {
     /// An item that slips falls, to the floor where it cannot lie.
     fn lose(&mut self, item: usize, ms: f64) {
         let Some(from) = self.place(item) else { return };
-        let landing = self.landing(item, from, ms);
+        let turn = self.turn(item);
+        let landing = self.landing(item, self.falling(item, from, turn), ms);
         let (carrier, point) = match self.mishap(&landing) {
             Some(_) => fall::to_floor(self, from),
             None => (landing.carrier, landing.point),
         };
-        self.hand_over(item, carrier, point);
+        self.hand_over(item, turn, carrier, point, ms);
     }
 
     /// How an item is turned about the vertical since it came onto the line, to the left as seen from above, rad. Of one
@@ -291,12 +293,11 @@ impl Plant {
         bearer.map_or(0.0, |bearer| bearer.turn(carrier, &self.items, &self.desk)) + own
     }
 
-    /// Something else bears an item, which keeps its turn.
-    fn hand_over(&mut self, item: usize, to: Carrier, point: Point) {
-        let turn = self.turn(item);
+    /// Something else bears an item from a time on, ms; its turn at that time it keeps.
+    fn hand_over(&mut self, item: usize, turn: f64, to: Carrier, point: Point, ms: f64) {
         self.items.pass(item, to, point);
         self.items.set_turn(item, 0.0);
-        let on = self.turn(item);
+        let on = self.block(item, ms).map_or_else(|| self.turn(item), |block| block.turn());
         self.items.set_turn(item, wrapped(turn - on));
     }
 
@@ -309,7 +310,7 @@ impl Plant {
 
     fn drop_item(&mut self, item: usize, now_ms: u64) {
         if let Some(from) = self.place(item) {
-            self.fall(Falls { item, from, ms: now_ms as f64 });
+            self.fall(Falls { item, from, turn: self.turn(item), ms: now_ms as f64 });
         }
     }
 
@@ -382,7 +383,7 @@ impl Plant {
             return self.load_conveyed(item);
         }
         let machine = self.machines.get(carrier.machine()?)?;
-        machine.conveyed(item, carrier, &self.items, &self.desk, self.now_ms())
+        machine.conveyed(item, carrier, &self.items, &self.desk, self.moved_to * self.scan_ms)
     }
 
     /// Whether two items lie on conveyors of which one leads onto the other.

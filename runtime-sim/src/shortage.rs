@@ -29,7 +29,7 @@ pub fn shortage(line: &Line, plant: &Plant) -> String {
     for (index, item) in plant.items().all().enumerate() {
         let kind = &line.kinds[item.kind].name;
         let on = |machine: usize, what: &str| format!("{what} of {}", line.machines[machine].name);
-        let carrier = match item.carrier {
+        let bearer = match plant.base_carrier(index) {
             Carrier::Floor { .. } => "the floor".to_string(),
             Carrier::Place { machine, part, .. } if !line.machines[machine].is_place_of_orders(part) => {
                 match line.machines[machine].title(part) {
@@ -38,9 +38,9 @@ pub fn shortage(line: &Line, plant: &Plant) -> String {
                 }
             }
             Carrier::Grip { machine, .. } => on(machine, "the gripper"),
-            Carrier::On { item: under, .. } => names.name(under),
             _ => continue,
         };
+        let carrier = item.carrier.item().map_or(bearer, |under| names.name(under));
         let place = plant.place(index).map_or(String::new(), |point| format!(" at {}", point_text(point)));
         facts.push(format!("{kind} (item {index}) lies on {carrier}{place}"));
     }

@@ -255,10 +255,10 @@ const Motion = (() => {
   }
 
   const items = raw.paths.map((path, number) => {
-    const [name, first, becomes] = raw.items[number];
+    const [name, first, becomes, loads] = raw.items[number];
     const kinds = [[-Infinity, first], ...(becomes || [])];
     const segments = whole(path.slice(1));
-    return { number, name, kinds, segments, at: Float64Array.from(segments, (s) => s[0]), endMs: path[0], turns: [], gripped: [] };
+    return { number, name, kinds, loads: loads || [], segments, at: Float64Array.from(segments, (s) => s[0]), endMs: path[0], turns: [], gripped: [] };
   });
 
   /* What an item is at a time: a process makes one kind of another. */
@@ -277,8 +277,8 @@ const Motion = (() => {
       case 1: return [a + (d + (gx * s) / 2) * s, b + (e + (gy * s) / 2) * s, c + (f + (gz * s) / 2) * s];
       case 2: {
         if (carrierOf(segment).what === 'place') return point(carriedBy(segment, s), [a, b, c]);
-        const { place, across, frame } = conveyed(segment, s);
-        const lies = pointOn(laneOf(machine, part).line, place, across);
+        const { place, across, frame, offset: [ahead, left, up] } = conveyed(segment, s);
+        const lies = point(frameOn(laneOf(machine, part).line, place), [ahead, across + left, up]);
         return frame ? point(frame, lies) : lies;
       }
       default: {
@@ -288,13 +288,14 @@ const Motion = (() => {
     }
   }
 
-  /* How far an item has come on its conveyor, and how that itself has moved. */
-  function conveyed([, carrier, , at, across, speed, stopsAt, out, rate, until], s) {
+  /* How far an item has come on its conveyor, or the one under it from which it is so far, and how the conveyor has moved. */
+  function conveyed([, carrier, , at, across, speed, stopsAt, out, rate, until, ...offset], s) {
     const [, , machine, part] = raw.carriers[carrier];
     const least = stopsAt === null ? -Infinity : Math.min(stopsAt, at);
     const place = Math.max(at - speed * s, least);
-    const cylinder = out === undefined ? null : cylinderOf(machine, laneOf(machine, part).on);
-    return { place, across, frame: cylinder && strokeFrame(cylinder, goneOut(out, rate, until, s)) };
+    const cylinder = out == null ? null : cylinderOf(machine, laneOf(machine, part).on);
+    const frame = cylinder && strokeFrame(cylinder, goneOut(out, rate, until, s));
+    return { place, across, frame, offset: offset.length ? offset : [0, 0, 0] };
   }
 
   /* How a cylinder has moved a place with an item. */
@@ -304,9 +305,14 @@ const Motion = (() => {
     return strokeFrame(cylinderOf(machine, on), goneOut(out, rate, until, s));
   }
 
-  /* How an item is turned, rad: it keeps its heading but on a conveyor with a frame, and on a gripper. */
+  /* How an item is turned, rad: it keeps its heading but on a conveyor with a frame, on a gripper and on another item. */
   function turnBy(item, index, ms) {
     const segment = item.segments[index];
+    const load = item.loads.find(([from, to]) => from <= segment[0] && (to === null || segment[0] < to));
+    if (load) {
+      const [, , under, turn] = load;
+      return turnBy(items[under], indexAt(items[under].at, ms), ms) + turn;
+    }
     const { what, machine, part } = carrierOf(segment);
     if (what === 'lane') {
       const lane = laneOf(machine, part);

@@ -10,7 +10,7 @@ use runtime_sim::run::Seen;
 
 /// A tray stands under the end of a conveyor, off which these items fall, four seconds after one another; kinds with their
 /// height, lengths, and what they bear.
-fn trays(kinds: &[(&str, f64, [f64; 2], &str)], items: &[&str], more: &str) -> Texts {
+pub fn trays(kinds: &[(&str, f64, [f64; 2], &str)], items: &[&str], more: &str) -> Texts {
     let kind = |(name, height, size, bears): &(&str, f64, [f64; 2], &str)| {
         format!(r#"{{"name": "{name}", "height": {height}, "size": {size:?}{bears}}}"#)
     };
@@ -30,9 +30,9 @@ fn trays(kinds: &[(&str, f64, [f64; 2], &str)], items: &[&str], more: &str) -> T
     }
 }
 
-const FLAT: (&str, f64, [f64; 2], &str) = ("tray", 0.02, [0.3, 0.2], r#", "bears": {}"#);
-const PIECE: (&str, f64, [f64; 2], &str) = ("piece", 0.05, [0.08, 0.06], "");
-const BAKED: (&str, f64, [f64; 2], &str) = ("baked", 0.05, [0.08, 0.06], "");
+pub const FLAT: (&str, f64, [f64; 2], &str) = ("tray", 0.02, [0.3, 0.2], r#", "bears": {}"#);
+pub const PIECE: (&str, f64, [f64; 2], &str) = ("piece", 0.05, [0.08, 0.06], "");
+pub const BAKED: (&str, f64, [f64; 2], &str) = ("baked", 0.05, [0.08, 0.06], "");
 /// Of all items the tray comes first.
 const TRAY: usize = 0;
 
@@ -103,7 +103,7 @@ fn what_has_no_place_on_a_tray_ends_the_run() {
     assert_eq!(of(r#", "bears": {}"#, &["piece", "long"]), ENDS);
     assert_eq!(
         of(middle_on_deck, &["long"]),
-        "interlock of trays: long_1 comes down on tray_1, which lies on a conveyor"
+        "interlock of trays: long_1 comes down beside the deck of tray_1, which lies on a conveyor"
     );
     assert_eq!(of(middle_on_deck, &["piece", "long"]), "interlock of trays: long_1 tips off piece_1");
     // It lies 10 mm beside the middle: 40 mm reach 50 mm along, 30 mm reach 40 mm across.
@@ -112,6 +112,83 @@ fn what_has_no_place_on_a_tray_ends_the_run() {
         of(walls("narrow"), &["piece"]),
         "interlock of trays: piece_1 comes down on the edge of tray_1"
     );
+}
+
+/// The upper conveyor begins to run after so many seconds.
+fn waiting(texts: Texts, seconds: u32) -> Texts {
+    let begins = format!(
+        "automaton Chute on chute {{
+    initial -> Waiting {{}}
+    state Waiting {{ when after {seconds} s -> Running {{ run := true; }} }}"
+    );
+    texts.replaced(&[("automaton Chute on chute {\n    initial -> Running { run := true; }", &begins)])
+}
+
+/// The tray is on the arc by then, and goes on.
+#[test]
+fn a_piece_that_comes_down_on_a_tray_in_a_curve_turns_with_it_from_then_on() {
+    let mut texts =
+        trays(&[FLAT, PIECE, BAKED], &["piece"], r#", "goal": {"trays.end": {"tray": 1, "piece": 1}}"#);
+    texts.layout = texts.layout.replace("[0.41, 0.01, 0, 0]", "[1.21, 0.07, 0, 0]");
+    let (mut known, mut scans, mut landed) = (None, 0, None);
+    let report = stepped::report(&waiting(texts, 9), |seen| {
+        scans += keeps_its_place(&mut known, seen, 1, TRAY);
+        if known.is_some() {
+            landed.get_or_insert(seen.plant.turn(TRAY).to_degrees());
+        }
+    });
+    assert_eq!(report.reason, "all items collected");
+    assert!(scans > 200, "{scans}");
+    let (_, turn) = known.expect("it lies on the tray");
+    let on_arc = landed.expect("it lies on the tray");
+    assert!((25.0..35.0).contains(&on_arc), "{on_arc}");
+    // In a scan the tray turns by less than a degree.
+    assert!((turn + on_arc).abs() < 1.0, "turned by {turn} on a tray that was turned by {on_arc}");
+}
+
+#[test]
+fn a_tray_on_a_tray_bears_too() {
+    let small = ("small", 0.02, [0.2, 0.15], r#", "bears": {}"#);
+    let goal = r#", "goal": {"trays.end": {"tray": 1, "small": 1, "piece": 1}}"#;
+    let texts = trays(&[FLAT, small, PIECE, BAKED], &["small", "piece"], goal);
+    let mut known = [None; 3];
+    let report = stepped::report(&texts, |seen| {
+        for (known, [item, on]) in known.iter_mut().zip([[1, TRAY], [2, 1], [2, TRAY]]) {
+            let is_on = seen.plant.items()[2].carrier.item() == Some(1);
+            if is_on && let Some((place, _)) = seen_from(seen.plant, item, on) {
+                let first = *known.get_or_insert(place);
+                assert!((place - first).length() < 1e-9, "item {item}, scan {}", seen.scan);
+            }
+        }
+    });
+    assert_eq!(report.reason, "all items collected");
+    assert_eq!(counted(&report), [("tray", 1), ("small", 1), ("piece", 1)]);
+    let heights = known.map(|place| place.map(|place| (place.z * 1000.0).round()));
+    assert_eq!(heights, [20.0, 20.0, 40.0].map(Some));
+}
+
+/// The piece on the first tray reaches 100 mm beyond it, at the height of the crate behind.
+#[test]
+fn trays_on_a_conveyor_keep_as_far_apart_as_what_lies_on_them_reaches() {
+    let crate_ = ("crate", 0.1, [0.3, 0.2], "");
+    let long = ("long", 0.05, [0.5, 0.06], "");
+    let scene = |items: &[&str], pose: &str| {
+        let mut texts = trays(&[FLAT, crate_, long, PIECE, BAKED], items, "");
+        texts.layout = texts.layout.replace("[0.41, 0.01, 0, 0]", pose);
+        let scenario = texts.scenario.map(|text| text.replace(r#"["tray"]"#, r#"["tray", "crate"]"#));
+        Texts { scenario, ..texts }.replaced(&[("at: 0.6;", "at: 0.9;")])
+    };
+    let mut behind = None;
+    let report = stepped::report(&scene(&["long"], "[0.5, 0.01, 0, 0]"), |seen| {
+        if seen.plant.now_ms() < 12_000 {
+            behind = seen.plant.place(1).map(|place| place.x);
+        }
+    });
+    assert_eq!(report.reason, "time limit reached");
+    assert!(behind.is_some_and(|behind| (behind - 0.35).abs() < 1e-6), "{behind:?}");
+    // The crate has closed up to the tray by the time that something lies on this.
+    let reason = reason(&waiting(scene(&["long"], "[0.5, 0.01, 0, 0]"), 5));
+    assert_eq!(reason, "interlock of trays: long_1 comes down on crate_1, which lies there");
 }
 
 /// The beam is over the tray: it sees what stands on it, from its own front edge to its own rear edge.
@@ -136,6 +213,60 @@ fn a_beam_sees_what_lies_on_a_tray() {
     // Of the kinds tray, piece and baked.
     let kinds: Vec<_> = rises.iter().map(|(kinds, _)| &kinds[..]).collect();
     assert_eq!(kinds, [[0.0, 1.0, 0.0]]);
+}
+
+/// Parts for which these are inputs of the device with trays; the field is 0.4 m long.
+const SENSORS: [(&str, &str); 2] = [
+    (
+        "    in sees: bool",
+        "    part scale = gauge { across: straight; at: 0.8; };
+    part field = zone { over: straight; middle: origin * point(0.75, 0, 0.3); half: 0.2; part_half: 0; };
+    in sees: bool",
+    ),
+    (
+        "    out run_straight",
+        "    in height: real = scale.height;
+    in mass: real = scale.mass;
+    in in_field: bool[Kind] = field.sees;
+    in foremost: point[Kind] = field.foremost;
+    out run_straight",
+    ),
+];
+
+#[test]
+fn gauges_and_zones_measure_what_lies_on_a_tray() {
+    let texts = trays(&[FLAT, PIECE, BAKED], &["piece", "piece"], "").replaced(&SENSORS);
+    let scenario =
+        texts.scenario.map(|text| text.replace(r#""height": 0.05,"#, r#""height": 0.05, "mass": 0.25,"#));
+    let texts = Texts {
+        scenario: scenario.map(|text| text.replace(r#""height": 0.02,"#, r#""height": 0.02, "mass": 2,"#)),
+        ..texts
+    };
+    let (mut highest, mut heaviest, mut scans) = (0.0, 0.0, 0);
+    stepped::report(&texts, |seen| {
+        let [height, mass] = [seen.inputs[0][4], seen.inputs[0][5]];
+        (highest, heaviest) = (f64::max(highest, height), f64::max(heaviest, mass));
+        let Some(tray) = seen.plant.place(TRAY) else { return };
+        // Off the joint, and not at an edge of the field or of the beam.
+        let is_at_edge = |off: f64| (off - 0.15).abs() < 1e-6 || (off - 0.16).abs() < 1e-6;
+        if seen.plant.items()[2].carrier.item() != Some(TRAY)
+            || tray.x > 0.99
+            || is_at_edge((tray.x - 0.75).abs())
+        {
+            return;
+        }
+        let piece = seen.plant.place(1).expect("it is on the tray");
+        let half = 0.2 - 0.04;
+        let is_in_field = (piece.x - 0.75).abs() < half;
+        assert_eq!(seen.inputs[0][7] != 0.0, is_in_field, "scan {}", seen.scan);
+        if is_in_field {
+            scans += 1;
+            let foremost = Point::new(seen.inputs[0][12], seen.inputs[0][13], seen.inputs[0][14]);
+            assert!((foremost - piece).length() < 1e-9, "scan {}: {foremost:?}", seen.scan);
+        }
+    });
+    assert!((highest - 0.12).abs() < 1e-9 && (heaviest - 2.5).abs() < 1e-9, "{highest} m, {heaviest} kg");
+    assert!(scans > 100, "{scans}");
 }
 
 #[test]
@@ -164,7 +295,12 @@ fn a_process_works_on_all_that_lies_on_a_tray() {
 fn what_lies_on_a_tray_that_a_process_changes_comes_to_rest_again() {
     let end = |process: &str| {
         let deep = ("deep", 0.1, [0.3, 0.2], r#", "bears": {"height": 0.01, "size": [0.28, 0.18]}"#);
-        let kinds = [FLAT, PIECE, ("thick", 0.08, [0.08, 0.06], ""), deep, ("plain", 0.02, [0.3, 0.2], "")];
+        // The pieces lie 10 mm beside the middle: 40 mm long they fit, 30 mm across they do not.
+        let narrow = ("narrow", 0.1, [0.3, 0.2], r#", "bears": {"height": 0.01, "size": [0.1, 0.07]}"#);
+        let plain = ("plain", 0.02, [0.3, 0.2], "");
+        let wide = ("wide", 0.02, [0.4, 0.2], r#", "bears": {}"#);
+        let pieces = [("thick", 0.08, [0.08, 0.06], ""), ("longer", 0.05, [0.1, 0.06], "")];
+        let kinds = [&[FLAT, PIECE, deep, narrow, plain, wide], &pieces[..]].concat();
         let texts = trays(&kinds, &["piece", "piece"], "").replaced(&[
             ("-> Baking {}", "-> Baking { bake := true; }"),
             ("kinds: [piece]; makes: [piece, baked];", process),
@@ -186,6 +322,25 @@ fn what_lies_on_a_tray_that_a_process_changes_comes_to_rest_again() {
     assert_eq!(end("joins: [piece];").1[1], Some(20.0));
     let plain = "interlock of trays: the process oven leaves a piece on a plain, which bears nothing";
     assert_eq!(end("makes: [tray, plain];").0, plain);
+    assert_eq!(end("makes: [piece, longer];"), ends(LIMIT, [20.0, 70.0]));
+    let wide =
+        "interlock of trays: the process oven makes a wide of a tray on a conveyor, which is of another size";
+    assert_eq!(end("makes: [tray, wide];").0, wide);
+    let narrow = "interlock of trays: the process oven moves a piece into a narrow";
+    assert_eq!(end("makes: [tray, narrow];").0, narrow);
+}
+
+#[test]
+fn a_piece_that_is_taken_off_its_tray_during_a_process_ends_the_run() {
+    let operator = r#", "operator": [{"remove": "piece_2", "at_s": 13.5}]"#;
+    let baking = |kinds: &str| {
+        let texts = trays(&[FLAT, PIECE, BAKED], &["piece", "piece"], operator);
+        let start = ("-> Baking {}", "-> Baking { bake := true; }");
+        reason(&texts.replaced(&[start, ("kinds: [piece]; makes: [piece, baked];", kinds)]))
+    };
+    let taken = "interlock of trays: a piece was taken from the process oven before its end";
+    assert_eq!(baking("kinds: [piece]; makes: [piece, baked];"), taken);
+    assert_eq!(baking("kinds: [tray];"), "time limit reached");
 }
 
 /// A box stands at a place where items lie on one another: what comes down into it lies in it, not on its upper side.

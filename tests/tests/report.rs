@@ -1,13 +1,15 @@
 //! The report of a run, in a browser: what it shows is what the run recorded.
 
+use crate::loads;
 use autogen::backend::report;
 use autogen::executor::Executor;
-use autogen_tests::{Texts, ariac, browser, side_by_side};
+use autogen_tests::{Texts, ariac, browser, side_by_side, stepped};
 use runtime_sim::item;
 use runtime_sim::path::table_csv;
 use runtime_sim::run::{Recorded, Seen, Stepping, record};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
 
 /// Rows of the table of places are so far apart, and rounded to a millionth.
 const EVERY_MS: u64 = 100;
@@ -42,6 +44,14 @@ fn default_line() -> Texts {
     Texts { scenario: Some(scenario.replace("\"count\": 8", "\"count\": 1")), ..ariac("default") }
 }
 
+/// Pieces that lie across trays, which go round a corner.
+fn trays() -> Texts {
+    let goal = r#", "goal": {"trays.end": {"tray": 1, "piece": 2}}"#;
+    let mut texts = loads::trays(&[loads::FLAT, loads::PIECE, loads::BAKED], &["piece", "piece"], goal);
+    texts.layout = texts.layout.replace("[0.41, 0.01, 0, 0]", "[0.44, -0.03, 0, 90]");
+    texts
+}
+
 /// The lines that are drawn: arms and vehicles, arms alone, lanes on turning and sliding cylinders.
 fn lines() -> Vec<(&'static str, Texts)> {
     let mut tending = side_by_side("tending/tending");
@@ -54,6 +64,8 @@ fn lines() -> Vec<(&'static str, Texts)> {
         scene("separating_station"),
         scene("elevator"),
         scene("converge_station"),
+        scene("packing"),
+        ("trays", trays()),
     ]
 }
 
@@ -133,6 +145,7 @@ fn the_page_draws_plays_and_zooms_and_shows_the_places_of_the_run() {
             compared += shown.len();
         }
         assert!(compared >= 10, "{name}: {compared} places");
+        assert_ne!(data(&run.page)["limit"]["path"], json!([]), "{name}");
         // The mill makes another kind of what it cuts; an item keeps its name.
         assert_eq!(became > 0, name == "tending", "{name}");
 
@@ -147,15 +160,43 @@ fn the_page_draws_plays_and_zooms_and_shows_the_places_of_the_run() {
         assert!(found["inspector"].as_str().is_some_and(|text| text.starts_with(&machine)), "{name}");
         let steps = data(&run.page)["throughput"]["steps"].as_array().map(Vec::len);
         assert_eq!(found["bars"].as_u64(), steps.map(|steps| steps as u64), "{name}");
-        // Only the default line and the tending cell have machines with commands.
+        // The other lines have no machines with commands.
         let moving = found["moving"].as_array().expect("cells");
         let has_commands = moving.iter().any(|cell| cell != "no commands");
-        assert_eq!(has_commands, ["default", "tending"].contains(&name), "{name}: {moving:?}");
+        assert_eq!(has_commands, ["default", "tending", "packing"].contains(&name), "{name}: {moving:?}");
         let percent = |value: &Value| -> f64 {
             value.as_str().and_then(|text| text.strip_suffix(" %")?.parse().ok()).expect("a percentage")
         };
         assert!(percent(&found["sorted"][0]) <= percent(&found["sorted"][1]), "{name}: {}", found["sorted"]);
     }
+}
+
+/// As they are drawn, rad, at times in which the trays are on both straight conveyors and on the arc.
+#[test]
+fn the_page_turns_items_with_the_trays_on_which_they_lie() {
+    let Some(browser) = browser::browser() else { return };
+    let texts = trays();
+    let times: Vec<u64> = (12..24).map(|i| 1000 * i).collect();
+    let mut turns = Vec::new();
+    stepped::report(&texts, |seen| {
+        if times.contains(&seen.plant.now_ms()) {
+            turns.push([0, 1, 2].map(|item| seen.plant.place(item).map(|_| seen.plant.turn(item))));
+        }
+    });
+    let script = format!("const TIMES = {times:?};\n{}", include_str!("../fixtures/report/driver.js"));
+    let found = browser::found(browser, "turns", &run(&texts).page, &script);
+    let found: Value = serde_json::from_str(&found).expect("JSON");
+    let mut turned = 0;
+    for (drawn, turns) in found["drawn"].as_array().expect("a list").iter().zip(turns) {
+        for (item, turn) in ["tray_1", "piece_1", "piece_2"].into_iter().zip(turns) {
+            let Some(turn) = turn else { continue };
+            let shown = drawn["turns"][item].as_f64().expect("a number");
+            let off = (shown - turn + PI).rem_euclid(TAU) - PI;
+            assert!(off.abs() < 1e-6, "{item} at {}: {shown}, not {turn}", drawn["shown"]);
+            turned += 1;
+        }
+    }
+    assert!(turned > 20, "{turned}");
 }
 
 /// Whether the table has an item at a time only since it leaves the line then.

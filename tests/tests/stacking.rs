@@ -186,6 +186,9 @@ fn what_a_process_frees_lies_where_it_can() {
     assert_eq!(freed("point(0.45, 0, 0), point(0.75, 0, 0)"), (FINISHED.into(), heights([150.0; 2])));
     // They come down on what is below.
     assert_eq!(freed("point(0.45, 0, 0.3), point(0.45, 0, 0.7)"), (FINISHED.into(), heights([150.0, 170.0])));
+    // The cap has left its slot, which stays taken.
+    let none = "interlock of chute: the process open has no free slot for a lid";
+    assert_eq!(freed("point(0.45, 0, 0.3)").0, none);
     let into = "interlock of chute: the process open lays a lid into a cap";
     assert_eq!(freed("point(0.45, 0, 0), point(0.55, 0, 0)").0, into);
     let beside = "interlock of chute: the process open lays a cap beside its place";

@@ -106,13 +106,8 @@ fn data(project: &Project, sources: &Sources, line: &Line, recorded: &Recorded, 
     let types: Vec<usize> = system.instances.iter().map(|instance| instance.automaton.0).collect();
     let names = item::Names::new(line).all();
     let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
-    let becomes = recorded.paths.iter().map(|path| &path.becomes);
-    let items =
-        names.iter().zip(kinds).zip(becomes).map(|((name, kind), becomes)| match becomes.is_empty() {
-            true => json!([name, kind]),
-            false => json!([name, kind, becomes]),
-        });
-    let items: Vec<Value> = items.collect();
+    let items = names.iter().zip(kinds).zip(&recorded.paths);
+    let items: Vec<Value> = items.map(|((name, kind), path)| paths::item_json(name, *kind, path)).collect();
     let long = Long::new(line, recorded, &signals);
     let mut machines = machine::machines(line, &signals);
     for (number, machine) in machines.iter_mut().enumerate() {

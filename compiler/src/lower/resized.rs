@@ -4,10 +4,14 @@ use super::role;
 use crate::diagnostic::Diagnostic;
 use runtime_sim::line::Line;
 
-/// One for each process on a lane, and pair of its kinds, of which the one is not as long and as wide as the other.
+/// One for each process on a lane, and pair of its kinds, of which the one is not as long and as wide as the other. Where
+/// items bear others this is found in the run: what lies on a tray may change its size.
 pub fn items(of: &role::Line, line: &Line) -> Vec<Diagnostic> {
     let size = |name: &str| line.kinds.iter().find(|kind| kind.name == name).map(|kind| kind.size);
     let mut found = Vec::new();
+    if line.kinds.iter().any(|kind| kind.deck.is_some()) {
+        return found;
+    }
     for (number, machine) in line.machines.iter().enumerate() {
         let on_lanes = machine.processes().filter(|(_, process)| process.at.is_some());
         for (part, process) in on_lanes {

@@ -70,7 +70,7 @@ pub struct CollisionCheck {
 /// An item: how large it is, how it is turned, and where it is among the bodies.
 #[derive(Clone, Debug)]
 struct Tracked {
-    shape: item::Shape,
+    dimensions: item::Dimensions,
     /// About the vertical, since it appeared; while it hangs, that of the moment it was gripped.
     turn: f64,
     /// In the world, as it hung or lies, if its upper side does not face up.
@@ -82,8 +82,8 @@ struct Tracked {
 }
 
 impl Tracked {
-    fn new(shape: item::Shape) -> Self {
-        Self { shape, turn: 0.0, tipped: Pose::IDENTITY, place: None, hang: Pose::IDENTITY }
+    fn new(dimensions: item::Dimensions) -> Self {
+        Self { dimensions, turn: 0.0, tipped: Pose::IDENTITY, place: None, hang: Pose::IDENTITY }
     }
 }
 
@@ -296,13 +296,13 @@ impl CollisionCheck {
     }
 
     fn track(&mut self, item: usize, plant: &Plant) -> &mut Tracked {
-        self.items.entry(item).or_insert_with(|| Tracked::new(plant.items().shape(item)))
+        self.items.entry(item).or_insert_with(|| Tracked::new(plant.items().dimensions(item)))
     }
 
     fn remake(&mut self, item: usize, plant: &Plant) {
         let Some(tracked) = self.items.get_mut(&item) else { return };
-        let shape = plant.items().shape(item);
-        if std::mem::replace(&mut tracked.shape, shape) != shape {
+        let dimensions = plant.items().dimensions(item);
+        if std::mem::replace(&mut tracked.dimensions, dimensions) != dimensions {
             self.load(item, plant);
         }
     }
@@ -371,7 +371,7 @@ impl CollisionCheck {
             }
         };
         let pieces = load::pieces(item, &frame, &self.names, plant);
-        let Point { x, y, z } = tracked.shape.size;
+        let Point { x, y, z } = tracked.dimensions.size;
         let size = [x, y, z, tracked.turn];
         let turned = frame.rotation.into_iter().flatten();
         let hang = [frame.position.x, frame.position.y, frame.position.z];

@@ -23,16 +23,30 @@ impl Block {
         Self { footprint: Footprint::new(size, at, turn), size, at, turn }
     }
 
+    /// Along its own axes, and upwards.
+    pub fn size(&self) -> Point {
+        self.size
+    }
+
+    /// Middle of its underside.
     pub fn at(&self) -> Point {
         self.at
     }
 
+    /// To the left, rad.
     pub fn turn(&self) -> f64 {
         self.turn
     }
 
+    /// The same with the middle of its underside there.
     pub fn moved_to(&self, at: Point) -> Self {
         Self::new(self.size, at, self.turn)
+    }
+
+    /// The same where this frame puts it, in which it was given.
+    pub fn in_frame(&self, frame: Frame) -> Self {
+        let turned = self.turn + frame.yaw.to_radians();
+        Self::new(self.size, frame.point(self.at), turned)
     }
 
     /// Origin at the middle of its underside, x along its length.
@@ -45,13 +59,24 @@ impl Block {
         self.footprint.half_extents()
     }
 
-    /// Whether it is within these lengths along x and y, around the origin.
-    pub fn is_within(&self, size: [f64; 2]) -> bool {
-        let [x, y] = self.footprint.half_extents();
-        let fits = |at: f64, half: f64, size: f64| at.abs() + half <= size / 2.0 + TOUCHES;
-        fits(self.at.x, x, size[0]) && fits(self.at.y, y, size[1])
+    /// How far it reaches along x of what it is given in.
+    pub fn reach_ahead(&self) -> f64 {
+        self.at.x + self.half_extents()[0]
     }
 
+    /// How far it reaches against x.
+    pub fn reach_back(&self) -> f64 {
+        self.half_extents()[0] - self.at.x
+    }
+
+    /// Whether the two would meet if one were moved along x.
+    pub fn is_across_from(&self, other: &Self) -> bool {
+        let apart = (self.at.y - other.at.y).abs();
+        let touch = self.half_extents()[1] + other.half_extents()[1];
+        self.is_beside(other) && apart < touch - TOUCHES
+    }
+
+    /// Of its upper side.
     pub fn top(&self) -> f64 {
         self.at.z + self.size.z
     }

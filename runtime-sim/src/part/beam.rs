@@ -1,6 +1,6 @@
 //! A light beam across a lane, or another switch that items on it actuate.
 
-use super::lane::{AT_ONCE, Over, Rider};
+use super::lane::{AT_ONCE, OnLane, Rider};
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, See, Signal, Start};
 use crate::device::{Extent, PortType};
@@ -79,29 +79,30 @@ impl Crossing {
     fn riders<'a>(&self, see: &See<'a>) -> impl Iterator<Item = &'a Rider> {
         let moving = see.lane(self.beam.lane);
         moving.into_iter().flat_map(|moving| {
-            let beam = moving.lane().centre_line.begin() - self.beam.at + AT_ONCE;
-            let is_in = move |rider: &&Rider| {
-                let place = moving.place_now(rider);
-                place - rider.half <= beam && place + rider.half > beam
-            };
-            moving.riders.iter().filter(is_in)
+            let beam = moving.lane().centre_line.begin() - self.beam.at;
+            moving.riders.iter().filter(move |rider| is_in_beam(moving.place_now(rider), rider.half, beam))
         })
     }
 
     /// What it sees, on the lane or on other items there.
-    pub fn seen(&self, see: &See) -> impl Iterator<Item = Over> {
+    pub fn seen(&self, see: &See) -> impl Iterator<Item = OnLane> {
         let items = see.items;
         let moving = see.lane(self.beam.lane);
         moving.into_iter().flat_map(move |moving| {
-            let beam = moving.lane().centre_line.begin() - self.beam.at + AT_ONCE;
-            let over = moving.riders.iter().flat_map(move |rider| moving.over(rider.item, rider.motion, items));
-            over.filter(move |over| {
-                let place = moving.place_of_over(over);
-                let is_in = place - over.half <= beam && place + over.half > beam;
-                is_in && over.top > self.beam.over && self.is_seen[items[over.item].kind]
+            let beam = moving.lane().centre_line.begin() - self.beam.at;
+            let all = moving.riders.iter().flat_map(move |rider| moving.on_lane(rider.item, rider.motion, items));
+            all.filter(move |on_lane| {
+                let is_in = is_in_beam(on_lane.place(moving), on_lane.half, beam);
+                is_in && on_lane.top > self.beam.over && self.is_seen[items[on_lane.item].kind]
             })
         })
     }
+}
+
+/// From its front edge to its rear edge, of an item with its middle there and half of this length along the lane.
+fn is_in_beam(place: f64, half: f64, beam: f64) -> bool {
+    let beam = beam + AT_ONCE;
+    place - half <= beam && place + half > beam
 }
 
 impl Running for Crossing {
@@ -113,17 +114,17 @@ impl Running for Crossing {
     fn next_change(&self, see: &See, now_ms: u64) -> f64 {
         let Some(moving) = see.lane(self.beam.lane) else { return f64::INFINITY };
         let beam = moving.lane().centre_line.begin() - self.beam.at;
-        let over = moving.riders.iter().flat_map(|rider| moving.over(rider.item, rider.motion, see.items));
-        let edges = over.flat_map(|over| {
-            let comes_to = |place| moving.over_comes_to(&over, place, now_ms as f64);
-            [comes_to(beam + over.half), comes_to(beam - over.half)]
+        let all = moving.riders.iter().flat_map(|rider| moving.on_lane(rider.item, rider.motion, see.items));
+        let edges = all.flat_map(|on_lane| {
+            let comes_to = |place| on_lane.comes_to(place, moving, now_ms as f64);
+            [comes_to(beam + on_lane.half), comes_to(beam - on_lane.half)]
         });
         edges.fold(f64::INFINITY, f64::min)
     }
 
     fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
         out.fill(0.0);
-        for Over { item, .. } in self.seen(see) {
+        for OnLane { item, .. } in self.seen(see) {
             out[if signal == 0 { 0 } else { see.items[item].kind }] = 1.0;
         }
     }

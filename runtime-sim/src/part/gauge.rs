@@ -58,10 +58,10 @@ impl Running for Measuring {
 
     fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
         let mass = |item: usize| -> f64 {
-            see.items.with_loads(item).iter().map(|item| self.masses[see.items[*item].kind]).sum()
+            see.items.with_loads(item).map(|item| self.masses[see.items[item].kind]).sum()
         };
         out[0] = match signal {
-            0 => self.crossing.seen(see).map(|over| over.top).fold(0.0, f64::max),
+            0 => self.crossing.seen(see).map(|on_lane| on_lane.top).fold(0.0, f64::max),
             _ => self.crossing.items(see).map(mass).fold(0.0, f64::max),
         };
     }

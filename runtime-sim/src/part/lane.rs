@@ -2,11 +2,11 @@
 
 mod centre_line;
 mod moving;
-mod over;
+mod on_lane;
 
 pub use centre_line::CentreLine;
 pub use moving::{AT_ONCE, Motion, Moving, Rider};
-pub use over::Over;
+pub use on_lane::OnLane;
 
 use super::settings::{Form, Setting, Settings};
 use super::{Action, Described, Level, Running, Schema, Signal, Start};

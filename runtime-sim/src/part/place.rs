@@ -8,10 +8,8 @@ use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, See, Start, Primitive};
 use crate::carrier::Carrier;
 use crate::frame::Frame;
-use crate::item::Item;
 use crate::item::block::Block;
 use crate::kinematics::facing::Facing;
-use crate::line::Kind;
 use crate::plant::conveyed::Conveyed;
 use crate::plant::fall::{Falling, SINK};
 use crate::point::Point;
@@ -103,9 +101,7 @@ impl Described for Place {
         let part = start.part;
         let orders =
             start.find(|other| matches!(other, Primitive::Orders(orders) if orders.place == part));
-        let kinds = start.line.kinds.iter();
-        let sizes = kinds.map(Kind::lengths).collect();
-        Ok(Some(Box::new(Bearing { place: self.clone(), part, orders, sizes })))
+        Ok(Some(Box::new(Bearing { place: self.clone(), part, orders })))
     }
 }
 
@@ -119,8 +115,6 @@ pub struct Bearing {
     part: usize,
     /// The order desk that takes the place away and brings it.
     orders: Option<usize>,
-    /// Of an item of each kind, m.
-    sizes: Vec<Point>,
 }
 
 impl Bearing {
@@ -138,8 +132,8 @@ impl Bearing {
         let Place { floor, floor_x, floor_y, stacks, .. } = self.place;
         let borne = see.borne_by(self.part).filter(|_| stacks);
         let items = borne.filter_map(|item| {
-            let Item { kind, carrier } = see.items[item];
-            Some((item, Block::new(self.sizes[kind], carrier.offset()?, see.items.turn(item))))
+            let size = see.items.dimensions(item).size;
+            Some((item, Block::new(size, see.items[item].carrier.offset()?, see.items.turn(item))))
         });
         Stack::new(Floor { middle: floor, x: floor_x, y: floor_y }, items.collect())
     }
@@ -148,7 +142,7 @@ impl Bearing {
     fn rest(&self, falling: &Falling, frame: Frame, see: &See) -> Option<Rest> {
         let seen = frame.seen(falling.point);
         let turn = falling.turn - frame.yaw.to_radians();
-        self.all(see).rest(&Block::new(self.sizes[falling.kind], seen, turn), seen.z + SINK)
+        self.all(see).rest(&Block::new(falling.size, seen, turn), seen.z + SINK)
     }
 
     /// Its frame, parallel to the world at the inner end of what carries it, on a track as the vehicle is turned; at this time from the start of the span on, ms,
@@ -194,10 +188,9 @@ impl Running for Bearing {
     }
 
     fn block(&self, item: usize, ms: f64, see: &See) -> Option<Block> {
-        let Item { kind, carrier } = see.items[item];
-        let (offset, frame) = (carrier.offset()?, self.frame(see, Some(ms)));
+        let (offset, frame) = (see.items[item].carrier.offset()?, self.frame(see, Some(ms)));
         let turn = see.items.turn(item) + frame.yaw.to_radians();
-        (self.place.facing == Facing::Down).then(|| Block::new(self.sizes[kind], frame.point(offset), turn))
+        (self.place.facing == Facing::Down).then(|| Block::new(see.items.dimensions(item).size, frame.point(offset), turn))
     }
 
     fn place(&self, _item: usize, carrier: &Carrier, see: &See) -> Option<Point> {

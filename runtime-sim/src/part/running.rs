@@ -123,12 +123,13 @@ impl<'a> World<'a> {
         self.items.shift(item, carrier, point);
     }
 
-    /// An item moves on what bears it.
-    pub fn shift_on(&mut self, item: usize, to: Carrier) {
-        let base = self.items.base_of(item);
+    /// An item moves on the item that bears it.
+    pub fn shift_on_item(&mut self, item: usize, to: Carrier) {
+        let (base, on_base) = self.items.on_base(item);
         let part = self.items[base].carrier.part();
-        let point = part.and_then(|part| self.see().place(part, base)).unwrap_or_default();
-        self.items.shift(item, to, point);
+        let block = part.and_then(|part| self.see().block(part, base, self.next_ms() as f64));
+        let point = block.map(|block| block.frame().point(on_base.position));
+        self.items.shift(item, to, point.unwrap_or_default());
     }
 
     fn at_place(&self, item: usize, part: usize, offset: Point) -> (Carrier, Point) {

@@ -1,7 +1,7 @@
 //! A field over a lane in which items are seen, with their kinds and places.
 
 use super::settings::{Form, Setting, Settings};
-use super::lane::{Moving, Over};
+use super::lane::{Moving, OnLane};
 use super::{Described, Primitive, Running, Schema, See, Signal, Start};
 use crate::device::{Extent, PortType};
 use crate::point::Point;
@@ -67,39 +67,36 @@ impl Seeing {
     }
 
     /// How far the middle of what lies wholly in the field is from the field's at most.
-    fn farthest(&self, over: &Over) -> f64 {
-        self.zone.half - over.half.max(self.zone.part_half)
+    fn farthest(&self, on_lane: &OnLane) -> f64 {
+        self.zone.half - on_lane.half.max(self.zone.part_half)
     }
 
     /// Takes all on the lane, and on other items there.
-    fn each(&self, moving: &Moving, see: &See, mut take: impl FnMut(&Over)) {
+    fn each(&self, moving: &Moving, see: &See, mut take: impl FnMut(&OnLane)) {
         for item in see.borne_by(self.zone.lane) {
             let Some(motion) = moving.motion(item, &see.items[item].carrier) else { continue };
-            take(&moving.over_itself(item, motion, see.items));
-            if !see.items.loads_of(item).is_empty() {
-                moving.over_loads(item, motion, see.items).iter().for_each(&mut take);
-            }
+            moving.on_lane(item, motion, see.items).for_each(|on_lane| take(&on_lane));
         }
     }
 
     /// Takes what lies wholly in the field, with where it is along the lane.
-    fn each_seen(&self, moving: &Moving, see: &See, mut take: impl FnMut(&Over, f64)) {
+    fn each_seen(&self, moving: &Moving, see: &See, mut take: impl FnMut(&OnLane, f64)) {
         let Some(middle) = self.middle(moving) else { return };
-        self.each(moving, see, |over| {
-            let along = moving.place_of_over(over);
-            if (along - middle).abs() <= self.farthest(over) {
-                take(over, along);
+        self.each(moving, see, |on_lane| {
+            let along = on_lane.place(moving);
+            if (along - middle).abs() <= self.farthest(on_lane) {
+                take(on_lane, along);
             }
         });
     }
 
     /// Of each of so many kinds the foremost one.
-    fn foremost(&self, kinds: usize, moving: &Moving, see: &See) -> Vec<Option<(Over, f64)>> {
-        let mut foremost: Vec<Option<(Over, f64)>> = vec![None; kinds];
-        self.each_seen(moving, see, |over, along| {
-            let of_kind = &mut foremost[see.items[over.item].kind];
+    fn foremost(&self, kinds: usize, moving: &Moving, see: &See) -> Vec<Option<(OnLane, f64)>> {
+        let mut foremost: Vec<Option<(OnLane, f64)>> = vec![None; kinds];
+        self.each_seen(moving, see, |on_lane, along| {
+            let of_kind = &mut foremost[see.items[on_lane.item].kind];
             if of_kind.is_none_or(|(_, other)| along < other) {
-                *of_kind = Some((*over, along));
+                *of_kind = Some((*on_lane, along));
             }
         });
         foremost
@@ -121,9 +118,9 @@ impl Running for Seeing {
         let Some(moving) = see.lane(self.zone.lane) else { return f64::INFINITY };
         let Some(middle) = self.middle(moving) else { return f64::INFINITY };
         let mut next_ms = f64::INFINITY;
-        self.each(moving, see, |over| {
-            let far = self.farthest(over);
-            let comes_to = |place: f64| moving.over_comes_to(over, place, now_ms as f64);
+        self.each(moving, see, |on_lane| {
+            let far = self.farthest(on_lane);
+            let comes_to = |place: f64| on_lane.comes_to(place, moving, now_ms as f64);
             next_ms = next_ms.min(comes_to(middle - far)).min(comes_to(middle + far));
         });
         next_ms
@@ -133,11 +130,11 @@ impl Running for Seeing {
         out.fill(0.0);
         let Some(moving) = see.lane(self.zone.lane) else { return };
         if signal == 0 {
-            self.each_seen(moving, see, |over, _| out[see.items[over.item].kind] = 1.0);
+            self.each_seen(moving, see, |on_lane, _| out[see.items[on_lane.item].kind] = 1.0);
             return;
         }
         for (kind, foremost) in self.foremost(out.len() / 3, moving, see).into_iter().enumerate() {
-            let place = foremost.and_then(|(over, _)| moving.point_of_over(&over, see));
+            let place = foremost.and_then(|(on_lane, _)| on_lane.point(moving, see));
             if let Some(Point { x, y, z }) = place {
                 out[3 * kind..3 * kind + 3].copy_from_slice(&[x, y, z]);
             }

@@ -1,6 +1,6 @@
 //! Recording the paths of all items while a line runs.
 
-use super::{Hanging, Law, Path, Segment};
+use super::{Hanging, Law, OnItem, Path, Segment};
 use crate::carrier::Carrier;
 use crate::event::Event;
 use crate::kinematics::arm::Arm;
@@ -113,6 +113,13 @@ impl Recorder {
                         carrier,
                         law: Law::Rests(point),
                     });
+                    if let Some(load) = path.loads.last_mut() {
+                        load.end_ms = load.end_ms.min(now_ms);
+                    }
+                    if let Some(under) = to.item() {
+                        let turn = plant.items().turn(item);
+                        path.loads.push(OnItem { begin_ms: now_ms, end_ms: f64::INFINITY, under, turn });
+                    }
                     passed.push(item);
                 }
                 Event::Kind { item, kind, .. } => self.paths[item].becomes.push((now_ms, kind)),

@@ -79,22 +79,6 @@ impl Conveyed {
         }
     }
 
-    /// Its own place on the centre line now, and how far across it is: of what lies on an item nearly.
-    pub fn along_and_across(&self) -> (f64, f64) {
-        let Point { x, y, .. } = self.offset;
-        match self.centre_line {
-            CentreLine::Axis { along: Axis::X, .. } => (self.place + x, self.across + y),
-            CentreLine::Axis { along: Axis::Y, .. } => (self.place + y, self.across + x),
-            CentreLine::Line { .. } => (self.place - x, self.across + y),
-            // Seen from the middle of the arc.
-            CentreLine::Arc { radius, .. } => {
-                let from_middle = radius - self.across - y;
-                let far = libm::hypot(from_middle, x) * radius.signum();
-                (self.place - radius * libm::atan2(x, from_middle.abs()) * radius.signum(), radius - far)
-            }
-        }
-    }
-
     /// Where its underside is after so many seconds.
     pub fn point(&self, seconds: f64) -> Point {
         let point = self.on_line(seconds);

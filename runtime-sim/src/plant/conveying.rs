@@ -47,6 +47,8 @@ pub struct Conveying {
 pub struct Falls {
     pub item: usize,
     pub from: Point,
+    /// About the vertical, rad.
+    pub turn: f64,
     /// When, from the start of the run.
     pub ms: f64,
 }
@@ -195,7 +197,7 @@ impl Conveying {
         while let Some((track, item, goes)) = self.goes_on(among, ms) {
             self.pass(among, ms, track, item, goes);
             if let Goes::Falls(from) = goes {
-                falls = Some(Falls { item, from, ms });
+                falls = Some(Falls { item, from, turn: among.items.turn(item), ms });
                 break;
             }
         }

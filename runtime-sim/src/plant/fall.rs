@@ -16,7 +16,8 @@ pub struct Falling {
     pub point: Point,
     /// Where its upper side faces; none: up.
     pub upper: Option<Point>,
-    pub kind: usize,
+    /// Its lengths, m.
+    pub size: Point,
     /// About the vertical, rad.
     pub turn: f64,
 }

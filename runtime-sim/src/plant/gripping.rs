@@ -246,9 +246,17 @@ impl Plant {
     fn candidates(&self, Lying { speeds, at_rest, moving, .. }: &Lying) -> Candidates {
         let carried = |item: &usize| {
             let machine = self.base_carrier(*item).machine()?;
-            Some(Carried { grip: self.grip_point(*item)?, leap: self.leap(*item), speed: speeds[machine] })
+            let speed = speeds[machine].max(self.speed_of_load(*item));
+            Some(Carried { grip: self.grip_point(*item)?, leap: self.leap(*item), speed })
         };
         Candidates { at_rest: at_rest.clone(), moving: moving.iter().filter_map(carried).collect() }
+    }
+
+    /// Metres per second that an item on another one goes at most, which may lie beyond the edge of a conveyor or of a place; 0
+    /// of others.
+    fn speed_of_load(&self, item: usize) -> f64 {
+        let load = self.items[item].carrier.item().and_then(|_| self.conveyed(item));
+        load.map_or(0.0, |load| load.speed_within(libm::hypot(load.offset.x, load.offset.y)))
     }
 
     /// How far an item that lies on a vehicle on a track goes at once at most, where this turns at corners, m.
@@ -272,7 +280,8 @@ impl Plant {
             {
                 self.take_from_under(machine, item, next_ms as f64);
                 let hang = Point { z: self.grasp(item), ..tool.inverse().point(place) };
-                self.hand_over(item, Carrier::Grip { machine, part, hang }, tool.point(hang));
+                let (carrier, point) = (Carrier::Grip { machine, part, hang }, tool.point(hang));
+                self.hand_over(item, self.turn(item), carrier, point, next_ms as f64);
             }
         }
     }

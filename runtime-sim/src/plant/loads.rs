@@ -47,8 +47,8 @@ impl Plant {
     }
 
     /// What an item takes up at a time, ms, that lies somewhere, not in a gripper and not on its side.
-    fn block(&self, item: usize, ms: f64) -> Option<Block> {
-        let size = self.items.shape(item).size;
+    pub(super) fn block(&self, item: usize, ms: f64) -> Option<Block> {
+        let size = self.items.dimensions(item).size;
         match self.items[item].carrier {
             Carrier::On { item: under, offset } => {
                 let under = self.block(under, ms)?;
@@ -78,13 +78,13 @@ impl Plant {
 
     /// The highest deck under an item that falls at a time, ms, and where it comes to rest there.
     pub(super) fn on_deck(&self, item: usize, falling: &Falling, ms: f64) -> Option<OnDeck> {
-        let own = self.items.with_loads(item);
-        let decks = self.items.placed().filter(|under| self.items.shape(*under).deck.is_some());
+        let own: Vec<usize> = self.items.with_loads(item).collect();
+        let decks = self.items.placed().filter(|under| self.items.dimensions(*under).deck.is_some());
         let found = decks.filter(|under| !own.contains(under)).filter_map(|under| {
             let block = self.block(under, ms)?;
             let rim = block.top();
             let seen = block.frame().seen(falling.point);
-            let block = Block::new(self.sizes[falling.kind], seen, falling.turn - block.turn());
+            let block = Block::new(falling.size, seen, falling.turn - block.turn());
             let rest = self.items.deck(under)?.rest(&block, seen.z + SINK)?;
             let height = falling.point.z - seen.z + rest.height;
             let at = Point { z: rest.height, ..seen };
@@ -92,27 +92,6 @@ impl Plant {
             is_below.then(|| OnDeck { under, block: block.moved_to(at), rest, height, rim })
         });
         found.reduce(|best, other| if other.height > best.height { other } else { best })
-    }
-
-    /// Why an item cannot lie where it comes down on another one.
-    pub(super) fn mishap_on(
-        &self,
-        item: usize,
-        OnDeck { under, block, rest, .. }: &OnDeck,
-    ) -> Option<String> {
-        let name = |item: usize| self.names.name(item);
-        let shape = self.items.shape(*under);
-        let stack = self.items.deck(*under)?;
-        if let Some(other) = stack.first_in(block) {
-            return Some(format!("{} comes down on {}, which lies there", name(item), name(other)));
-        }
-        if let Some(off) = rest.tips_off {
-            return Some(format!("{} tips off {}", name(item), name(off)));
-        }
-        let deck = shape.deck?;
-        let is_on_wall =
-            deck.height < shape.size.z && block.at().z < shape.size.z && !block.is_within(deck.size);
-        is_on_wall.then(|| format!("{} comes down on the edge of {}", name(item), name(*under)))
     }
 
     /// Where the underside of an item is that lies on another one; it is rigid with a tool that has gripped that.

@@ -2,7 +2,10 @@
 
 use super::Plant;
 use super::fall::{self, Falling};
+use super::loads::OnDeck;
 use crate::carrier::Carrier;
+use crate::frame::Frame;
+use crate::item::Dimensions;
 use crate::item::block::Block;
 use crate::point::Point;
 
@@ -13,6 +16,23 @@ pub(super) struct Landing {
     ms: f64,
     pub carrier: Carrier,
     pub point: Point,
+}
+
+/// An item where it stands.
+struct Stands {
+    carrier: Carrier,
+    of: Dimensions,
+    frame: Frame,
+}
+
+impl Stands {
+    fn block(&self) -> Block {
+        Block::new(self.of.size, self.frame.position, self.frame.yaw.to_radians())
+    }
+
+    fn solids(&self) -> Vec<Block> {
+        self.of.solids().iter().map(|solid| solid.in_frame(self.frame)).collect()
+    }
 }
 
 /// It cannot lie there.
@@ -28,59 +48,117 @@ impl Landing {
 }
 
 impl Plant {
-    pub(super) fn landing(&self, item: usize, from: Point, ms: f64) -> Landing {
-        let falling = self.falling(item, from);
+    pub(super) fn landing(&self, item: usize, falling: Falling, ms: f64) -> Landing {
         let (carrier, point) = fall::fall(self, item, &falling, ms);
         Landing { item, falling, ms, carrier, point }
     }
 
     pub(super) fn mishap(&mut self, landing: &Landing) -> Option<Mishap> {
-        if let Carrier::On { item: under, .. } = landing.carrier {
-            let on_deck = self.on_deck(landing.item, &landing.falling, landing.ms)?;
-            let machine = self.base_carrier(under).machine()?;
-            return Some(Mishap { machine, reason: self.mishap_on(landing.item, &on_deck)? });
-        }
-        let machine = landing.carrier.machine()?;
-        let reason = if let Some(under) = self.is_in(landing) {
-            format!(
-                "{} comes down on {}, which lies there",
-                self.names.name(landing.item),
-                self.names.name(under)
-            )
-        } else if let Some(off) = self.tips_off(landing).filter(|_| landing.is_at_place()) {
-            format!("{} tips off {}", self.names.name(landing.item), self.names.name(off))
-        } else {
-            let under = self.lies_under(landing.item, &landing.carrier, landing.ms)?;
-            let [upper, lower] = [landing.item, under].map(|item| self.names.name(item));
-            format!("{upper} comes down on {lower}, which lies on a conveyor")
+        let under = landing.carrier.item();
+        let bearer = self.machine_under(landing.carrier);
+        // What has fallen on the floor bears this one.
+        let machine = bearer.or_else(|| under.and(self.items[landing.item].carrier.machine()))?;
+        let reason = match under {
+            Some(under) => self.mishap_on(landing, under),
+            None => self.mishap_at(landing),
         };
-        Some(Mishap { machine, reason })
+        Some(Mishap { machine, reason: reason? })
     }
 
-    /// An item at a place of the machine in which another one would be: where both places stack items, as they are turned,
-    /// else however they are turned.
-    fn is_in(&self, landing: &Landing) -> Option<usize> {
-        let Carrier::Place { machine, part, .. } = landing.carrier else { return None };
-        let working = &self.machines[machine];
-        let see = working.see(&self.items, &self.desk);
-        if working.upper(&landing.carrier, &self.items, &self.desk).is_some() {
-            return None;
+    fn comes_down_on(&self, landing: &Landing, other: usize) -> String {
+        let [item, other] = [landing.item, other].map(|item| self.names.name(item));
+        format!("{item} comes down on {other}, which lies there")
+    }
+
+    fn text_of_tipping(&self, landing: &Landing, off: usize) -> String {
+        format!("{} tips off {}", self.names.name(landing.item), self.names.name(off))
+    }
+
+    /// Why an item cannot lie where it comes down on a conveyor or at a place.
+    fn mishap_at(&mut self, landing: &Landing) -> Option<String> {
+        if let Some(other) = self.meets(landing).next() {
+            return Some(self.comes_down_on(landing, other));
         }
-        let Falling { kind, turn, .. } = landing.falling;
-        let block = Block::new(self.sizes[kind], landing.point, turn);
-        let stacks = |part: usize| see.stack(part).is_some();
-        let stacks_here = stacks(part);
-        let others = self.items.borne_by(machine).iter().copied().filter(|other| *other != landing.item);
-        let mut at_places =
-            others.filter(|other| matches!(self.items[*other].carrier, Carrier::Place { .. }));
-        at_places.find(|other| {
-            let Some(lies) = working.block(*other, landing.ms, &see) else { return false };
-            let of = self.items[*other].carrier.part().unwrap_or(part);
-            match stacks_here && (of == part || stacks(of)) {
-                true => block.is_in(&lies),
-                false => block.is_surely_in(&lies),
+        if let Some(off) = self.tips_off(landing).filter(|_| landing.is_at_place()) {
+            return Some(self.text_of_tipping(landing, off));
+        }
+        let under = self.lies_under(landing.item, &landing.carrier, landing.ms)?;
+        let [upper, lower] = [landing.item, under].map(|item| self.names.name(item));
+        let on = if self.items.dimensions(under).deck.is_some() { "beside the deck of" } else { "on" };
+        Some(format!("{upper} comes down {on} {lower}, which lies on a conveyor"))
+    }
+
+    /// Why an item cannot lie where it comes down on another one.
+    fn mishap_on(&self, landing: &Landing, under: usize) -> Option<String> {
+        let OnDeck { rest, .. } = self.on_deck(landing.item, &landing.falling, landing.ms)?;
+        if let Some(other) = self.meets(landing).find(|other| *other != under) {
+            return Some(self.comes_down_on(landing, other));
+        }
+        if let Some(off) = rest.tips_off {
+            return Some(self.text_of_tipping(landing, off));
+        }
+        let is_on_wall = self.meets(landing).any(|other| other == under);
+        let [upper, lower] = [landing.item, under].map(|item| self.names.name(item));
+        is_on_wall.then(|| format!("{upper} comes down on the edge of {lower}"))
+    }
+
+    /// The items of the machine, or on the item on the floor, in which one would be with all that lies on it.
+    fn meets(&self, landing: &Landing) -> impl Iterator<Item = usize> {
+        let Landing { item, falling, point, carrier, ms } = *landing;
+        let bases = match (self.machine_under(carrier), carrier.item()) {
+            _ if matches!(carrier, Carrier::Lane { .. }) && !self.items.has_loads() => Vec::new(),
+            (Some(machine), _) => self.items.borne_by(machine).to_vec(),
+            (None, Some(under)) => vec![self.items.base_of(under)],
+            (None, None) => Vec::new(),
+        };
+        let lands_as = Frame::new(point, falling.turn.to_degrees());
+        let own = self.items.with_loads(item).map(|own| {
+            let carrier = if own == item { carrier } else { self.items[own].carrier };
+            Stands {
+                carrier,
+                of: self.items.dimensions(own),
+                frame: lands_as.then(self.items.on_base(own).1),
             }
+        });
+        let own: Vec<Stands> = own.collect();
+        let lands_upright = self.lands_upright(&carrier);
+        let bases = bases.into_iter().filter(move |base| lands_upright && *base != item);
+        bases.flat_map(|base| self.items.with_loads(base)).filter(move |other| {
+            let Some(lies) = self.block(*other, ms) else { return false };
+            let carrier = self.items[*other].carrier;
+            let other = Stands { carrier, of: self.items.dimensions(*other), frame: lies.frame() };
+            own.iter().any(|own| self.are_in_one_another(own, &other))
         })
+    }
+
+    /// What is held on its side is not seen to.
+    fn lands_upright(&self, carrier: &Carrier) -> bool {
+        if let Some(under) = carrier.item() {
+            return self.upper(under).is_none();
+        }
+        let bearer = carrier.machine().map(|machine| &self.machines[machine]);
+        bearer.is_none_or(|bearer| bearer.upper(carrier, &self.items, &self.desk).is_none())
+    }
+
+    /// On places where items do not lie on one another they may be turned as they like; what lies on a conveyor itself is not
+    /// asked here.
+    fn are_in_one_another(&self, one: &Stands, other: &Stands) -> bool {
+        let stacks = |machine: usize, part: usize| {
+            self.machines[machine].see(&self.items, &self.desk).stack(part).is_some()
+        };
+        match (one.carrier, other.carrier) {
+            (Carrier::On { .. }, _) | (_, Carrier::On { .. }) => {
+                let solids = other.solids();
+                one.solids().iter().any(|solid| solids.iter().any(|other| solid.is_in(other)))
+            }
+            (Carrier::Place { machine, part, .. }, Carrier::Place { part: of, .. }) => {
+                match stacks(machine, part) && (part == of || stacks(machine, of)) {
+                    true => one.block().is_in(&other.block()),
+                    false => one.block().is_surely_in(&other.block()),
+                }
+            }
+            _ => false,
+        }
     }
 
     /// The item off which one tips that comes down, wherever that lies; none if anything bears it there.

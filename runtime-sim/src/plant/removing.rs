@@ -35,19 +35,17 @@ impl Removing {
 }
 
 impl Plant {
-    /// Takes away what is to be taken away at the start of this scan, if it lies on a conveyor, at a place or on the floor.
+    /// Takes away what is to be taken away at the start of this scan, if it lies on a conveyor, at a place or on
+    /// the floor, or on an item that does; what lies on it goes too.
     pub(super) fn remove(&mut self, scan: u64) {
         for number in 0..self.removing.len() {
             let Removing { item: Some(item), at_scan, .. } = self.removing[number] else { continue };
             if at_scan != scan {
                 continue;
             }
-            let carrier = self.items[item].carrier;
+            let carrier = self.base_carrier(item);
             match (carrier, self.place(item)) {
-                (
-                    Carrier::Lane { .. } | Carrier::Place { .. } | Carrier::On { .. } | Carrier::Floor { .. },
-                    Some(point),
-                ) if !matches!(self.base_carrier(item), Carrier::Grip { .. }) => {
+                (Carrier::Lane { .. } | Carrier::Place { .. } | Carrier::Floor { .. }, Some(point)) => {
                     match self.lies_on(item, (scan * self.scan_ms) as f64) {
                         Some(upper) => self.removing[number].missed = Some(NotRemoved::Under(upper)),
                         None => self.items.pass(item, Carrier::Collector, point),

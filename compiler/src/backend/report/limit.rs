@@ -69,7 +69,10 @@ impl Run<'_> {
         });
         let collected = || {
             self.events.iter().rev().find_map(|event| match *event {
-                Event::Item { scan, item, from, to: Carrier::Sink { .. }, .. } if is_known(scan) => {
+                // What lies on an item goes with it.
+                Event::Item { scan, item, from, to: Carrier::Sink { .. }, .. }
+                    if is_known(scan) && from.item().is_none() =>
+                {
                     Some(At::Handover(Handover { scan, item, from }))
                 }
                 _ => None,

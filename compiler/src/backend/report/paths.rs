@@ -3,10 +3,10 @@
 use super::numbers::{List, list};
 use runtime_sim::carrier::Carrier;
 use runtime_sim::line::Line;
-use runtime_sim::path::{Law, Path, Segment};
+use runtime_sim::path::{Law, OnItem, Path, Segment};
 use runtime_sim::point::Point;
 use runtime_sim::report::carrier_text;
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// Each a value of JSON.
 pub struct Paths {
@@ -16,6 +16,18 @@ pub struct Paths {
     /// and the numbers of that. What continues where the segment before has brought it does without the place: a number of
     /// the law that is greater by [`GOES_ON`].
     pub items: String,
+}
+
+/// What an item is: its name, its first kind, what it became and when, and when it lay on others: begin, end, which one,
+/// and how it was turned there, ms and rad. Empty lists at the end are left out.
+pub fn item_json(name: &str, kind: usize, path: &Path) -> Value {
+    let load = |load: &OnItem| json!([load.begin_ms, load.end_ms, load.under, load.turn]);
+    let loads: Vec<Value> = path.loads.iter().map(load).collect();
+    match (path.becomes.is_empty(), loads.is_empty()) {
+        (true, true) => json!([name, kind]),
+        (false, true) => json!([name, kind, path.becomes]),
+        (_, false) => json!([name, kind, path.becomes, loads]),
+    }
 }
 
 /// Of the segments those that begin by this time.
@@ -84,11 +96,19 @@ fn law(segment: &Segment, carrier: usize, goes_on: bool) -> String {
             numbers.put_all(carried.unwrap_or_default())
         }
         Law::Conveyed(conveyed) => {
-            let (place, across) = conveyed.along_and_across();
-            let stops_at = conveyed.stops_at + place - conveyed.place;
-            numbers.put_whole(2).put_all([place, across, conveyed.speed, stops_at]);
-            match conveyed.carried {
-                Some(carried) => numbers.put_all([carried.out, carried.rate, carried.until]),
+            numbers.put_whole(2).put_all([
+                conveyed.place,
+                conveyed.across,
+                conveyed.speed,
+                conveyed.stops_at,
+            ]);
+            let offset = conveyed.offset;
+            let carried = conveyed.carried.map(|carried| [carried.out, carried.rate, carried.until]);
+            match carried {
+                _ if offset != Point::default() => {
+                    numbers.put_all(carried.unwrap_or([f64::NAN; 3])).put_all([offset.x, offset.y, offset.z])
+                }
+                Some(carried) => numbers.put_all(carried),
                 None => &mut numbers,
             }
         }

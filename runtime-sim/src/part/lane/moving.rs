@@ -265,7 +265,7 @@ impl Running for Moving {
             true => centre_line.frame(place).yaw.to_radians(),
             false => see.items.turn(item),
         };
-        Some(Block::new(see.items.shape(item).size, centre_line.point(place, across), turn))
+        Some(Block::new(see.items.dimensions(item).size, centre_line.point(place, across), turn))
     }
 
     fn place(&self, item: usize, carrier: &Carrier, see: &See) -> Option<Point> {

@@ -83,11 +83,6 @@ impl Stack {
         found.map(|(other, _)| *other)
     }
 
-    /// An item in which one would be that has not come yet.
-    pub fn first_in(&self, block: &Block) -> Option<usize> {
-        self.items.iter().find(|(_, other)| other.is_in(block)).map(|(other, _)| *other)
-    }
-
     /// The items that may come to rest at another height if one changes and others go, the lowest first: all that lie on
     /// these, or on others that do, and the one that changes if it lies on any.
     pub fn shaken(&self, changes: usize, gone: &[usize]) -> Vec<usize> {

@@ -73,15 +73,32 @@ fn limits(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ms: f64
     let mut limits: Vec<Limit> = stops.map(|place| Limit { place, behind: None }).collect();
     let ahead = entries[..at].iter().enumerate().rev().take_while(|(_, other)| other.track == entry.track);
     // What lies on another one does not stop behind it.
-    limits.extend(
-        ahead
-            .map(|(other, of)| Limit { place: of.place + of.half + entry.half, behind: Some(other) })
-            .find(|limit| limit.place <= entry.place + LIES_ON),
-    );
+    let apart =
+        ahead.flat_map(|(other, of)| apart(tracks, among, of, entry).map(|apart| (other, of.place + apart)));
+    let mut limits_behind = apart.map(|(other, place)| Limit { place, behind: Some(other) });
+    limits.extend(limits_behind.find(|limit| limit.place <= entry.place + LIES_ON));
     if let Some(onto) = track.onto.filter(|_| entry.rider == 0 && track.sink.is_none()) {
         limits.extend(beyond_end(tracks, among, entries, at, onto));
     }
     limits
+}
+
+/// How far the middles of two items are apart that touch, m: by what lies on them, which may reach beyond them, then by
+/// themselves alone.
+fn apart(tracks: &[Track], among: &Among, ahead: &Entry, behind: &Entry) -> [f64; 2] {
+    let touch = ahead.half + behind.half;
+    if !among.items.has_loads() {
+        return [touch; 2];
+    }
+    let blocks = |entry: &Entry| {
+        let lane = among.lane(&tracks[entry.track]);
+        lane.blocks_on(lane.riders[entry.rider].item, among.items)
+    };
+    let [ahead, behind] = [ahead, behind].map(blocks);
+    let pairs = ahead.iter().flat_map(|ahead| behind.iter().map(move |behind| (ahead, behind)));
+    let pairs = pairs.filter(|(ahead, behind)| ahead.is_across_from(behind));
+    let loads = pairs.map(|(ahead, behind)| behind.reach_ahead() + ahead.reach_back());
+    [loads.fold(touch, f64::max), touch]
 }
 
 /// What is in the way of the first item of a lane on the lane after it, or beside it on another one that leads there.
@@ -95,7 +112,10 @@ fn beyond_end(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ont
         // On its way over from another lane it is in nobody's way before the joint.
         let comes_along = among.lane(&tracks[onto]).riders[last.rider].from == Some(entry.track);
         if comes_along || rear <= begin + SAME {
-            Limit { place: end + rear - begin + entry.half, behind: Some(number) }
+            let places = apart(tracks, among, last, entry).map(|apart| end + last.place + apart - begin);
+            let is_ahead = |place: &f64| *place <= entry.place + LIES_ON;
+            let place = places.into_iter().find(is_ahead).unwrap_or(places[1]);
+            Limit { place, behind: Some(number) }
         } else {
             Limit { place: end + entry.half, behind: None }
         }

@@ -1,4 +1,6 @@
 use super::*;
+use crate::part::Described;
+use crate::part::settings::Settings;
 use crate::value::Value;
 
 const CYCLES: u32 = 100_000;
