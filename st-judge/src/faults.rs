@@ -10,6 +10,7 @@ use crate::check::Checked;
 use crate::finding::Span;
 use runtime_sim::random::Random;
 use std::collections::BTreeSet;
+use std::thread;
 use survey::Survey;
 
 /// A kind of fault.
@@ -104,18 +105,34 @@ pub fn seed(source: &str, checked: &Checked, places: usize, random_seed: u64) ->
             let seeded = mutations.len();
             let mut row =
                 Row { name: fault.name, rules: BTreeSet::new(), possible, seeded, caught: 0, missed: vec![] };
-            for mutation in &mutations {
-                match crate::judge(&applied(source, mutation)) {
-                    Err(findings) => {
+            for (mutation, found) in mutations.iter().zip(judged(source, &mutations)) {
+                match found {
+                    Some(rule) => {
                         row.caught += 1;
-                        row.rules.extend(findings.first().map(|f| f.code));
+                        row.rules.extend(rule);
                     }
-                    Ok(_) => row.missed.push(described(source, mutation)),
+                    None => row.missed.push(described(source, mutation)),
                 }
             }
             row
         })
         .collect()
+}
+
+/// By which rule each of the changed texts is found first, if it is found; on all processors.
+fn judged(source: &str, mutations: &[Mutation]) -> Vec<Option<Option<&'static str>>> {
+    let judge = |mutation: &Mutation| {
+        let findings = crate::judge(&applied(source, mutation)).err()?;
+        Some(findings.first().map(|finding| finding.code))
+    };
+    let workers = thread::available_parallelism().map_or(1, |count| count.get());
+    let size = mutations.len().div_ceil(workers).max(1);
+    thread::scope(|scope| {
+        let parts = mutations.chunks(size);
+        let parts: Vec<_> =
+            parts.map(|part| scope.spawn(move || part.iter().map(judge).collect::<Vec<_>>())).collect();
+        parts.into_iter().flat_map(|part| part.join().expect("the judge does not panic")).collect()
+    })
 }
 
 fn applied(source: &str, mutation: &Mutation) -> String {

@@ -31,8 +31,8 @@ pub fn copy(workspace: &Path, profile: &str) {
     for (path, text) in sources() {
         put(&folder.join(path), text);
     }
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--quiet", "-p", "runtime-sim"]).current_dir(&folder).env_remove("RUSTFLAGS");
+    let mut cargo = cargo(&folder);
+    cargo.args(["build", "--quiet", "-p", "runtime-sim"]);
     cargo.env("CARGO_TARGET_DIR", folder.join("target"));
     if profile == "release" {
         cargo.arg("--release");
@@ -41,6 +41,14 @@ pub fn copy(workspace: &Path, profile: &str) {
     for part in ["runtime-sim".to_string(), format!("target/{profile}")] {
         copy_all(&folder.join(&part), &workspace.join(part));
     }
+}
+
+/// Cargo in a workspace that is compiled once: nothing is kept for a second time, and for no debugger.
+pub fn cargo(workspace: &Path) -> Command {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.current_dir(workspace).env_remove("RUSTFLAGS");
+    cargo.env("CARGO_INCREMENTAL", "0").env("CARGO_PROFILE_DEV_DEBUG", "false");
+    cargo
 }
 
 /// Beside the tests themselves, so that it is there for the next ones and goes with `cargo clean`.

@@ -41,11 +41,13 @@ pub struct Text<'a> {
     pub family: &'a str,
     pub system: &'a System,
     files: Files,
+    /// Found to be right once; it is run several times.
+    is_judged: std::cell::Cell<bool>,
 }
 
 impl<'a> Text<'a> {
     pub fn new(name: &'a str, family: &'a str, system: &'a System, sources: &Sources) -> Self {
-        Self { name, family, system, files: st::files(system, sources) }
+        Self { name, family, system, files: st::files(system, sources), is_judged: false.into() }
     }
 
     pub fn main(&self) -> &str {
@@ -81,9 +83,14 @@ impl Coverage {
     /// Judges a text and runs it beside the executor.
     pub fn take(&mut self, text: &Text, run: impl FnOnce(&mut Beside)) {
         self.texts += 1;
-        match judge(text.main()) {
-            Ok(checked) => self.find_dead(text, &checked),
-            Err(found) => return self.wrong.push(format!("{}: {}", text.name, listed(&found, text.main()))),
+        if !text.is_judged.replace(true) {
+            match judge(text.main()) {
+                Ok(checked) => self.find_dead(text, &checked),
+                Err(found) => {
+                    text.is_judged.set(false);
+                    return self.wrong.push(format!("{}: {}", text.name, listed(&found, text.main())));
+                }
+            }
         }
         // Beside every second text one of the two dialects that have structures.
         let other = match (self.texts + text.name.len()) % 4 {

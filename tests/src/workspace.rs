@@ -5,7 +5,7 @@ use autogen::backend::rust;
 use autogen::ir::System;
 use autogen::source::Sources;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{env, fs};
 
@@ -55,11 +55,9 @@ impl Workspace {
         if matches!(arguments[0], "build" | "test") && !self.target().join(profile).exists() {
             compiled_simulator::copy(&self.folder, profile);
         }
-        let output = Command::new(env!("CARGO"))
+        let output = compiled_simulator::cargo(&self.folder)
             .args(arguments)
-            .current_dir(&self.folder)
             .env("CARGO_TARGET_DIR", self.target())
-            .env_remove("RUSTFLAGS")
             .output()
             .expect("cargo can be started");
         let errors = String::from_utf8_lossy(&output.stderr);

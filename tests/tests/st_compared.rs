@@ -61,10 +61,11 @@ fn coverage(job: &Job) -> Coverage {
                 run(&project.plant, beside, Stepping::EveryScan, &mut |_| {})
                     .expect("a line that can be run");
             });
+            let scans = if is_full_campaign() { 3000 } else { 1000 };
             for seed in 1..=3 {
-                coverage.take(&text, |beside| drawn(beside, &text, Lots::powered(text.system, seed), 3000));
+                coverage.take(&text, |beside| drawn(beside, &text, Lots::powered(text.system, seed), scans));
             }
-            coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, 4), 3000));
+            coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, 4), scans));
             coverage.enter_the_rest(&text, &outcome.sources, |beside, text| {
                 drawn(beside, text, Lots::lively(text.system, 2), 300);
             });

@@ -431,7 +431,9 @@ fn drawn(random: &mut Random) -> Builder {
 fn random_layouts() {
     let mut random = Random(0x5EED);
     let (mut feasible, mut close, mut apart, mut suggestions, mut single) = (0, 0, 0, 0, 0);
-    for _ in 0..300 {
+    // The long form has 300: `AUTOGEN_CAMPAIGN=full`.
+    let layouts = if std::env::var("AUTOGEN_CAMPAIGN").is_ok_and(|form| form == "full") { 300 } else { 100 };
+    for _ in 0..layouts {
         let (line, report) = drawn(&mut random).check();
         feasible += usize::from(report.is_feasible());
         assert_eq!(report.is_feasible(), report.diagnostics.is_empty());
@@ -476,9 +478,9 @@ fn random_layouts() {
     {
         println!("{feasible} feasible, {close} close, {apart} pairs apart, {suggestions} suggestions");
     }
-    assert!(feasible >= 90, "{feasible} feasible");
-    assert!(close >= 90, "{close} close");
-    assert!(single >= 90, "{single} single points");
+    assert!(feasible * 10 >= layouts * 3, "{feasible} feasible");
+    assert!(close * 10 >= layouts * 3, "{close} close");
+    assert!(single * 10 >= layouts * 3, "{single} single points");
     assert!(suggestions * 10 >= apart * 9, "{suggestions} of {apart}");
 }
 
