@@ -335,24 +335,3 @@ fn every_transition_of_the_library_fires_alike() {
     let most = if is_full_campaign() { 0 } else { MOST_SILENT };
     assert!(open.len() <= most, "never fired:\n{open:#?}");
 }
-
-#[test]
-fn debug_and_release_give_the_same_trace() {
-    let job = job("default", ariac("default"), |_| ());
-    let workspace = Workspace::write("debug", &job.project.system, &job.sources);
-    workspace.put("line.txt", &job.project.plant.to_text());
-    let mut found = Vec::new();
-    for profile in [&["--release"][..], &[]] {
-        workspace.cargo(&[&["build", "--quiet", "-p", "commissioning", "--bins"], profile].concat());
-        let program = match profile {
-            [] => workspace.debug_program("commissioning"),
-            _ => workspace.program("commissioning"),
-        };
-        let arguments = ["line.txt", "parameters.txt", "--hashes", "hashes.txt"];
-        let report = start(&program, &arguments, &workspace.folder, "");
-        let hashes = std::fs::read_to_string(workspace.folder.join("hashes.txt")).expect("the hashes");
-        found.push((report, hashes));
-    }
-    println!("{} scans", found[0].1.lines().count());
-    assert!(found[0] == found[1], "debug and release differ");
-}

@@ -254,7 +254,10 @@ const SYSTEM: usize = 7;
 fn fixtures_run_as_on_the_executor() {
     let (system, sources) = together();
     let workspace = Workspace::write("fixtures", &system, &sources);
-    workspace.cargo(&["clippy", "--quiet", "--all-targets", "--", "-D", "warnings"]);
+    // The simulator, which is always the same, is judged in the workspace of the default line.
+    let crates = ["-p", "controllers", "-p", "adapters", "-p", "commissioning", "--no-deps"];
+    workspace
+        .cargo(&[&["clippy", "--quiet", "--all-targets"], &crates[..], &["--", "-D", "warnings"]].concat());
     workspace.cargo(&["build", "--quiet", "--release", "-p", "commissioning", "--bins", "--examples"]);
     let recording = record(&mut Executor::new(&system), &system, 30_000, Lots::new(&system, 1));
 
@@ -362,6 +365,7 @@ fn the_line_runs_as_on_the_executor() {
     }
     assert_eq!(report.trim_end(), expected.to_json());
     assert_eq!(found.len(), hashes.len());
+    debug_gives_the_same(&workspace, &found, &report);
     links_without_a_panic(&workspace);
     workspace.put("controllers/examples/document.rs", &program_of_the_document());
     workspace.cargo(&["check", "--quiet", "-p", "controllers", "--example", "document"]);
@@ -369,6 +373,16 @@ fn the_line_runs_as_on_the_executor() {
     workspace.cargo(&["test", "--quiet", "-p", "controllers", "--test", "restore"]);
     workspace.put("adapters/tests/images.rs", IMAGES);
     workspace.cargo(&["test", "--quiet", "-p", "adapters", "--test", "images"]);
+}
+
+/// The program that is not optimized, in which an overflow panics, against hashes and report of the one for release.
+fn debug_gives_the_same(workspace: &Workspace, hashes: &str, report: &str) {
+    workspace.cargo(&["build", "--quiet", "-p", "commissioning", "--bins"]);
+    let arguments = ["line.txt", "parameters.txt", "--hashes", "hashes_of_debug.txt"];
+    let found = run(&workspace.debug_program("commissioning"), &arguments, &workspace.folder, "");
+    assert_eq!(found, report);
+    let found = std::fs::read_to_string(workspace.folder.join("hashes_of_debug.txt")).expect("the hashes");
+    assert!(found == hashes, "debug and release differ");
 }
 
 /// What docs/rust.md shows, with an end.
