@@ -20,6 +20,7 @@ use crate::part::{Form, Part, Primitive};
 use crate::point::Point;
 use crate::value::Value;
 use crate::wiring::{Drives, Output, Source, Wiring};
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -53,22 +54,22 @@ pub struct Misfit {
     pub reason: String,
     /// The part that does not fit, by its number, if it is one.
     pub part: Option<usize>,
-    pub fix: &'static str,
+    pub fix: Cow<'static, str>,
 }
 
 impl From<&str> for Misfit {
     fn from(reason: &str) -> Self {
-        Self { reason: reason.into(), part: None, fix: FIX }
+        Self { reason: reason.into(), part: None, fix: FIX.into() }
     }
 }
 
 impl Misfit {
     fn of(part: usize, reason: impl Into<String>) -> Self {
-        Self { reason: reason.into(), part: Some(part), fix: FIX }
+        Self { reason: reason.into(), part: Some(part), fix: FIX.into() }
     }
 
-    fn fix(self, fix: &'static str) -> Self {
-        Self { fix, ..self }
+    fn fix(self, fix: impl Into<Cow<'static, str>>) -> Self {
+        Self { fix: fix.into(), ..self }
     }
 }
 

@@ -35,8 +35,8 @@ impl Machine {
     /// brings items.
     pub(super) fn check_on_lanes(&self, index: usize) -> Result<(), Misfit> {
         let part = &self.parts[index];
-        let of_part = |reason| Misfit::of(index, reason);
-        self.check_beside(part).map_err(of_part)?;
+        let of_part = |reason: String| Misfit::of(index, reason);
+        self.check_beside(index, part)?;
         match &part.primitive {
             Primitive::Lane(lane) => self.check_over_floor(&part.name, lane).map_err(of_part),
             Primitive::Sink(sink) => self.check_only_sink(index, sink.lane),
@@ -101,22 +101,24 @@ impl Machine {
         }
     }
 
-    fn check_beside(&self, part: &Part) -> Result<(), String> {
-        let (lane, at, from) = match &part.primitive {
-            Primitive::Beam(beam) => (beam.lane, beam.at, "beginning"),
-            Primitive::Gauge(gauge) => (gauge.lane, gauge.at, "beginning"),
-            Primitive::Stopper(stopper) => (stopper.lane, stopper.at, "beginning"),
-            Primitive::Diverter(diverter) => (diverter.lane, diverter.at, "beginning"),
-            Primitive::Pusher(pusher) => (pusher.lane, pusher.at, "beginning"),
-            Primitive::Source(source) => (source.lane, source.inset, "beginning"),
-            Primitive::Sink(sink) => (sink.lane, sink.inset, "end"),
-            Primitive::Process(Process { on, at: Some(at), .. }) => (*on, *at, "beginning"),
+    fn check_beside(&self, index: usize, part: &Part) -> Result<(), Misfit> {
+        let (lane, at, setting, from) = match &part.primitive {
+            Primitive::Beam(beam) => (beam.lane, beam.at, "at", "beginning"),
+            Primitive::Gauge(gauge) => (gauge.lane, gauge.at, "at", "beginning"),
+            Primitive::Stopper(stopper) => (stopper.lane, stopper.at, "at", "beginning"),
+            Primitive::Diverter(diverter) => (diverter.lane, diverter.at, "at", "beginning"),
+            Primitive::Pusher(pusher) => (pusher.lane, pusher.at, "at", "beginning"),
+            Primitive::Source(source) => (source.lane, source.inset, "inset", "beginning"),
+            Primitive::Sink(sink) => (sink.lane, sink.inset, "inset", "end"),
+            Primitive::Process(Process { on, at: Some(at), .. }) => (*on, *at, "at", "beginning"),
             _ => return Ok(()),
         };
         let Some(lane) = self.lane_of(lane) else { return Ok(()) };
         let length = lane.centre_line.length();
         if !(-ROUNDED..=length + ROUNDED).contains(&at) {
-            return Err(format!("{} is {at:.3} m from the {from} of a lane of {length:.3} m", part.name));
+            let reason = format!("{} is {at:.3} m from the {from} of a lane of {length:.3} m", part.name);
+            let fix = format!("give `{setting}` a value from 0 to {length:.3}, or make the lane longer");
+            return Err(Misfit::of(index, reason).fix(fix));
         }
         Ok(())
     }
