@@ -179,6 +179,11 @@ impl Items {
         base
     }
 
+    /// How many items bear it, one on another.
+    pub fn depth(&self, item: usize) -> usize {
+        std::iter::successors(self[item].carrier.item(), |under| self[*under].carrier.item()).count()
+    }
+
     /// The frame of an item in that of the one at the bottom, with that one; both turned about the vertical.
     pub fn on_base(&self, item: usize) -> (usize, Frame) {
         let Carrier::On { item: under, offset } = self[item].carrier else { return (item, Frame::default()) };

@@ -62,7 +62,10 @@ fn state_of(line: &Line, plant: &Plant, machine: usize, order: usize) -> String 
     for (kind, &wanted) in line.scenario.orders[order].parts.iter().enumerate() {
         let name = &line.kinds[kind].name;
         let items = plant.items();
-        let held = items.borne_by(machine).iter().flat_map(|item| items.with_loads(*item));
+        let is_there = |item: &&usize| {
+            items[**item].carrier.part().is_some_and(|part| line.machines[machine].is_place_of_orders(part))
+        };
+        let held = items.borne_by(machine).iter().filter(is_there).flat_map(|item| items.with_loads(*item));
         let held = held.filter(|item| items[*item].kind == kind).count();
         let wanted = wanted as usize;
         if held < wanted {

@@ -64,6 +64,7 @@ mod structured_text;
 mod table1;
 mod texts;
 mod traces;
+mod trays;
 mod tutorial;
 mod vehicles;
 mod verdicts;

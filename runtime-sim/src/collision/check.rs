@@ -310,10 +310,19 @@ impl CollisionCheck {
     /// What lies on an item, or what it is itself, has changed: all above one another are one body.
     fn load(&mut self, item: usize, plant: &Plant) {
         let base = plant.items().base_of(item);
-        if self.items.get(&base).is_some_and(|tracked| tracked.place.is_some()) {
-            self.leave(base, plant);
-            self.come(base, plant.items()[base].carrier, plant);
+        let Some((index, before)) = self.items.get(&base).and_then(|tracked| tracked.place) else { return };
+        let pairs = self.pairs_of[index].iter();
+        let touching: Vec<_> =
+            pairs.map(|pair| (*pair, self.pairs[*pair].touching_of(index, before))).collect();
+        let touched = self.touches;
+        self.leave(base, plant);
+        self.come(base, plant.items()[base].carrier, plant);
+        let now = self.items.get(&base).and_then(|tracked| tracked.place);
+        let Some((_, now)) = now.filter(|(group, _)| *group == index) else { return };
+        for (pair, touching) in touching {
+            self.pairs[pair].go_on(touching, index, [before, now]);
         }
+        self.touches = touched && self.pairs.iter().any(Pair::touches);
     }
 
     fn leave(&mut self, item: usize, plant: &Plant) {

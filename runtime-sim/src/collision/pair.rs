@@ -48,7 +48,7 @@ struct KnownApart {
 
 /// Bodies that are in contact.
 #[derive(Clone, Debug)]
-struct Touching {
+pub struct Touching {
     bodies: [usize; 2],
     /// They are in contact as long as their paths together are no longer than this.
     until: f64,
@@ -263,6 +263,29 @@ impl Pair {
         self.touching.retain(|Touching { bodies: [i, j], .. }| {
             !(group == a && *i == body || group == b && *j == body)
         });
+    }
+
+    /// Contacts of a body that goes on as another one: what lies on it has changed.
+    pub fn touching_of(&self, group: usize, body: usize) -> Vec<Touching> {
+        let [a, b] = self.groups;
+        let is_its = |Touching { bodies: [i, j], .. }: &&Touching| {
+            group == a && *i == body || group == b && *j == body
+        };
+        self.touching.iter().filter(is_its).cloned().collect()
+    }
+
+    /// They last if that other body is in contact too.
+    pub fn go_on(&mut self, touching: Vec<Touching>, group: usize, [from, to]: [usize; 2]) {
+        let groups = self.groups;
+        let go_on = touching.into_iter().map(|Touching { mut bodies, .. }| {
+            for side in 0..2 {
+                if groups[side] == group && bodies[side] == from {
+                    bodies[side] = to;
+                }
+            }
+            Touching { bodies, until: f64::NEG_INFINITY }
+        });
+        self.touching.extend(go_on);
     }
 
     /// Looks at all bodies that may have come into contact in this span; the first contact of the pair, if

@@ -103,10 +103,13 @@ impl Recorder {
         let mut passed = Vec::new();
         for event in log.since(self.read) {
             match *event {
-                Event::Item { item, to, point, .. } => {
+                Event::Item { item, from, to, point, .. } => {
                     let carrier = to.item().map_or(to, |under| plant.base_carrier(under));
                     let path = &mut self.paths[item];
                     path.cut(now_ms);
+                    // The place of an event is that of the item at the bottom.
+                    let own = path.segments.last().filter(|_| from.item().is_some() && to.is_gone());
+                    let point = own.map_or(point, |last| last.place(last.end_ms));
                     path.segments.push(Segment {
                         begin_ms: now_ms,
                         end_ms: now_ms,

@@ -35,7 +35,7 @@ pub fn fall(plant: &Plant, item: usize, falling: &Falling, ms: f64) -> (Carrier,
             lands = Some((height, carrier));
         }
     }
-    if let Some(OnDeck { under, block, height, rim, .. }) = plant.on_deck(item, falling, ms) {
+    if let Some(OnDeck { under, block, height, rim, rest }) = plant.on_deck(item, falling, ms) {
         // The place of a box takes its upper side for its surface.
         let is_at_place = |carrier: &Carrier| {
             let base = plant.base_carrier(under);
@@ -43,7 +43,10 @@ pub fn fall(plant: &Plant, item: usize, falling: &Falling, ms: f64) -> (Carrier,
                 && [carrier.machine(), carrier.part()] == [base.machine(), base.part()]
         };
         let is_lower = |(surface, carrier): &(f64, Carrier)| {
-            *surface <= height || is_at_place(carrier) && *surface <= rim + SAME_HEIGHT
+            let is_level = (*surface - height).abs() < SAME_HEIGHT;
+            // Off a deck it may tip where a place as high bears it.
+            let bears = is_level && matches!(carrier, Carrier::Place { .. }) && rest.tips_off.is_some();
+            *surface < height + SAME_HEIGHT && !bears || is_at_place(carrier) && *surface <= rim + SAME_HEIGHT
         };
         if lands.as_ref().is_none_or(is_lower) {
             lands = Some((height, Carrier::On { item: under, offset: block.at() }));

@@ -286,15 +286,6 @@ impl Plant {
         }
     }
 
-    /// An item that lies on this one at a time, ms.
-    pub(super) fn lies_on(&self, item: usize, ms: f64) -> Option<usize> {
-        let carrier = self.items[item].carrier;
-        if let Carrier::On { item: under, .. } = carrier {
-            return self.items.deck(under)?.lies_on(item);
-        }
-        self.upper_at_places(item, ms)
-    }
-
     /// An item on which another one lies is not lifted alone.
     fn take_from_under(&mut self, machine: usize, item: usize, ms: f64) {
         if self.lies_on(item, ms).is_some() {

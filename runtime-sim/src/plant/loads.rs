@@ -4,7 +4,7 @@ use super::Plant;
 use super::fall::{Falling, SINK};
 use crate::carrier::Carrier;
 use crate::frame::Frame;
-use crate::item::block::Block;
+use crate::item::block::{Block, SAME_HEIGHT};
 use crate::part::place::Rest;
 use crate::plant::conveyed::Conveyed;
 use crate::plant::trajectory::Trajectory;
@@ -63,20 +63,8 @@ impl Plant {
         }
     }
 
-    /// An item at any place that lies on this one at a time, ms, and not on the floor of its own place.
-    pub(super) fn upper_at_places(&self, item: usize, ms: f64) -> Option<usize> {
-        let Carrier::Place { .. } = self.items[item].carrier else { return None };
-        let under = self.block(item, ms)?;
-        let mut others = self.stacking.iter().flat_map(|machine| self.items.borne_by(*machine)).copied();
-        others.find(|other| {
-            let Carrier::Place { machine, part, offset } = self.items[*other].carrier else { return false };
-            let see = self.machines[machine].see(&self.items, &self.desk);
-            let is_over_floor = see.stack(part).is_some_and(|stack| stack.is_over_floor(offset));
-            is_over_floor && self.block(*other, ms).is_some_and(|other| other.lies_on(&under))
-        })
-    }
-
-    /// The highest deck under an item that falls at a time, ms, and where it comes to rest there.
+    /// The highest deck under an item that falls at a time, ms, and where it comes to rest there; of decks at the same height
+    /// one off which it does not tip, and the uppermost of trays on trays.
     pub(super) fn on_deck(&self, item: usize, falling: &Falling, ms: f64) -> Option<OnDeck> {
         let own: Vec<usize> = self.items.with_loads(item).collect();
         let decks = self.items.placed().filter(|under| self.items.dimensions(*under).deck.is_some());
@@ -91,7 +79,47 @@ impl Plant {
             let is_below = rest.height <= seen.z + SINK;
             is_below.then(|| OnDeck { under, block: block.moved_to(at), rest, height, rim })
         });
-        found.reduce(|best, other| if other.height > best.height { other } else { best })
+        let rank = |on: &OnDeck| (on.rest.tips_off.is_none(), self.items.depth(on.under));
+        found.reduce(|best, other| {
+            let is_level = (other.height - best.height).abs() < SAME_HEIGHT;
+            let is_better = if is_level { rank(&other) > rank(&best) } else { other.height > best.height };
+            if is_better { other } else { best }
+        })
+    }
+
+    /// An item that lies on this one at a time, ms, and not with it.
+    pub(super) fn lies_on(&self, item: usize, ms: f64) -> Option<usize> {
+        let on_deck = self.items[item].carrier.item().and_then(|under| self.items.deck(under)?.lies_on(item));
+        on_deck.or_else(|| self.lies_across(item, ms))
+    }
+
+    /// The same of items on others, and at all places where they lie on one another: not those on the floor of a place, or on
+    /// a tray itself.
+    fn lies_across(&self, item: usize, ms: f64) -> Option<usize> {
+        if !self.items.has_loads() && !matches!(self.items[item].carrier, Carrier::Place { .. }) {
+            return None;
+        }
+        let under = self.block(item, ms)?;
+        let own: Vec<usize> = self.items.with_loads(item).collect();
+        let here = self.machine_under(self.items[item].carrier).filter(|_| self.items.has_loads());
+        let machines = self.stacking.iter().copied().chain(here);
+        let others = machines.flat_map(|machine| self.items.borne_by(machine));
+        let mut others =
+            others.flat_map(|base| self.items.with_loads(*base)).filter(|other| !own.contains(other));
+        others.find(|other| {
+            self.lies_on_items(*other) && self.block(*other, ms).is_some_and(|other| other.lies_on(&under))
+        })
+    }
+
+    fn lies_on_items(&self, item: usize) -> bool {
+        let (stack, offset) = match self.items[item].carrier {
+            Carrier::Place { machine, part, offset } => {
+                (self.machines[machine].see(&self.items, &self.desk).stack(part), offset)
+            }
+            Carrier::On { item: under, offset } => (self.items.deck(under), offset),
+            _ => return false,
+        };
+        stack.is_some_and(|stack| stack.is_over_floor(offset))
     }
 
     /// Where the underside of an item is that lies on another one; it is rigid with a tool that has gripped that.

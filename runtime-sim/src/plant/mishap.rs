@@ -20,6 +20,7 @@ pub(super) struct Landing {
 
 /// An item where it stands.
 struct Stands {
+    item: usize,
     carrier: Carrier,
     of: Dimensions,
     frame: Frame,
@@ -65,8 +66,8 @@ impl Plant {
         Some(Mishap { machine, reason: reason? })
     }
 
-    fn comes_down_on(&self, landing: &Landing, other: usize) -> String {
-        let [item, other] = [landing.item, other].map(|item| self.names.name(item));
+    fn comes_down_on(&self, pair: [usize; 2]) -> String {
+        let [item, other] = pair.map(|item| self.names.name(item));
         format!("{item} comes down on {other}, which lies there")
     }
 
@@ -76,8 +77,8 @@ impl Plant {
 
     /// Why an item cannot lie where it comes down on a conveyor or at a place.
     fn mishap_at(&mut self, landing: &Landing) -> Option<String> {
-        if let Some(other) = self.meets(landing).next() {
-            return Some(self.comes_down_on(landing, other));
+        if let Some(pair) = self.meets(landing).next() {
+            return Some(self.comes_down_on(pair));
         }
         if let Some(off) = self.tips_off(landing).filter(|_| landing.is_at_place()) {
             return Some(self.text_of_tipping(landing, off));
@@ -91,19 +92,19 @@ impl Plant {
     /// Why an item cannot lie where it comes down on another one.
     fn mishap_on(&self, landing: &Landing, under: usize) -> Option<String> {
         let OnDeck { rest, .. } = self.on_deck(landing.item, &landing.falling, landing.ms)?;
-        if let Some(other) = self.meets(landing).find(|other| *other != under) {
-            return Some(self.comes_down_on(landing, other));
+        if let Some(pair) = self.meets(landing).find(|[_, other]| *other != under) {
+            return Some(self.comes_down_on(pair));
         }
         if let Some(off) = rest.tips_off {
             return Some(self.text_of_tipping(landing, off));
         }
-        let is_on_wall = self.meets(landing).any(|other| other == under);
+        let is_on_wall = self.meets(landing).any(|[_, other]| other == under);
         let [upper, lower] = [landing.item, under].map(|item| self.names.name(item));
         is_on_wall.then(|| format!("{upper} comes down on the edge of {lower}"))
     }
 
-    /// The items of the machine, or on the item on the floor, in which one would be with all that lies on it.
-    fn meets(&self, landing: &Landing) -> impl Iterator<Item = usize> {
+    /// An item that comes down, or one on it, with each item of the machine, or on the item on the floor, in which it would be.
+    fn meets(&self, landing: &Landing) -> impl Iterator<Item = [usize; 2]> {
         let Landing { item, falling, point, carrier, ms } = *landing;
         let bases = match (self.machine_under(carrier), carrier.item()) {
             _ if matches!(carrier, Carrier::Lane { .. }) && !self.items.has_loads() => Vec::new(),
@@ -111,24 +112,29 @@ impl Plant {
             (None, Some(under)) => vec![self.items.base_of(under)],
             (None, None) => Vec::new(),
         };
-        let lands_as = Frame::new(point, falling.turn.to_degrees());
+        let turn = self.heading(&carrier, point, ms).unwrap_or(falling.turn);
+        let lands_as = Frame::new(point, turn.to_degrees());
         let own = self.items.with_loads(item).map(|own| {
             let carrier = if own == item { carrier } else { self.items[own].carrier };
-            Stands {
-                carrier,
-                of: self.items.dimensions(own),
-                frame: lands_as.then(self.items.on_base(own).1),
-            }
+            let of = self.items.dimensions(own);
+            Stands { item: own, carrier, of, frame: lands_as.then(self.items.on_base(own).1) }
         });
         let own: Vec<Stands> = own.collect();
         let lands_upright = self.lands_upright(&carrier);
         let bases = bases.into_iter().filter(move |base| lands_upright && *base != item);
-        bases.flat_map(|base| self.items.with_loads(base)).filter(move |other| {
-            let Some(lies) = self.block(*other, ms) else { return false };
-            let carrier = self.items[*other].carrier;
-            let other = Stands { carrier, of: self.items.dimensions(*other), frame: lies.frame() };
-            own.iter().any(|own| self.are_in_one_another(own, &other))
+        bases.flat_map(|base| self.items.with_loads(base)).filter_map(move |item| {
+            let (lies, carrier) = (self.block(item, ms)?, self.items[item].carrier);
+            let other = Stands { item, carrier, of: self.items.dimensions(item), frame: lies.frame() };
+            let own = own.iter().find(|own| self.are_in_one_another(own, &other))?;
+            Some([own.item, item])
         })
+    }
+
+    /// How a lane turns what comes onto it there at a time, ms, about the vertical, rad; none of what keeps its turn.
+    fn heading(&self, carrier: &Carrier, point: Point, ms: f64) -> Option<f64> {
+        let Carrier::Lane { machine, part, .. } = *carrier else { return None };
+        let working = &self.machines[machine];
+        working.lane(part)?.heading(point, ms, &working.see(&self.items, &self.desk))
     }
 
     /// What is held on its side is not seen to.

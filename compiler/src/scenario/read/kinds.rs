@@ -78,9 +78,11 @@ impl Decoder {
                 self.no_word(word, "what a kind is");
             }
         });
+        let is_sized = find(members, "size").is_none() || size.is_some();
+        let known = height.filter(|_| is_sized);
         let height = height.unwrap_or_default();
         let (grasp, size) = (grasp.unwrap_or(height), size.unwrap_or(SIZE));
-        let deck = find(members, "bears").and_then(|j| self.deck(j, height, size));
+        let deck = find(members, "bears").zip(known).and_then(|(json, _)| self.deck(json, height, size));
         Some(Kind { name: name?, height, grasp, size, is, mass, deck })
     }
 

@@ -48,12 +48,19 @@ pub fn lying(
     offset: Point,
     conveyed: Option<Conveyed>,
 ) -> BoundingBox {
+    let ball = &about_vertical(ball);
     let here = BoundingBox::around(&ball.shifted(place));
     match (machine.route(), conveyed) {
         (Some(_), _) => at_stops(machine, &ball.shifted(offset)),
         (None, Some(conveyed)) => here.with(&along_conveyor(&conveyed, ball)),
         (None, None) => here,
     }
+}
+
+/// However a body is turned about the vertical: what lies on an item may reach beyond it to one side.
+fn about_vertical(ball: &Ball) -> Ball {
+    let Point { x, y, z } = ball.middle;
+    Ball { middle: Point::new(0.0, 0.0, z), radius: ball.radius + libm::hypot(x, y) }
 }
 
 /// What an item can take on the rest of its conveyor, wherever that is carried.

@@ -109,6 +109,14 @@ impl Moving {
         carried.map_or(self.lane.centre_line, |carriage| self.lane.centre_line.moved(carriage.frame(ms)))
     }
 
+    /// How an item is turned that is there at a time from the start of this span on, ms, about the vertical, rad; none if items
+    /// keep their turn.
+    pub fn heading(&self, point: Point, ms: f64, see: &See) -> Option<f64> {
+        let centre_line = self.centre_line(see, ms);
+        let (place, _) = centre_line.find(point).filter(|_| centre_line.turns_items())?;
+        Some(centre_line.frame(place).yaw.to_radians())
+    }
+
     /// Metres that the surface has moved since the start of the run.
     pub fn travel(&self) -> f64 {
         self.travel_at(self.now_ms as f64)
