@@ -79,25 +79,21 @@ impl Decoder {
             }
         });
         let is_sized = find(members, "size").is_none() || size.is_some();
-        let known = height.filter(|_| is_sized);
+        let known = height.filter(|_| is_sized).map(|height| (height, size.unwrap_or(SIZE)));
+        let deck = find(members, "bears").and_then(|j| self.deck(j, known));
         let height = height.unwrap_or_default();
         let (grasp, size) = (grasp.unwrap_or(height), size.unwrap_or(SIZE));
-        let deck = find(members, "bears").zip(known).and_then(|(json, _)| self.deck(json, height, size));
         Some(Kind { name: name?, height, grasp, size, is, mass, deck })
     }
 
-    /// Where items lie on a kind of this height and of these lengths.
-    fn deck(&mut self, json: &Json, height: f64, outer: [f64; 2]) -> Option<Deck> {
+    /// Where items lie on a kind of this height and of these lengths, if they are known.
+    fn deck(&mut self, json: &Json, kind: Option<(f64, [f64; 2])>) -> Option<Deck> {
         let members = self.object(json, "bears")?;
         self.unknown_keys(members, &["height", "size"], "bears");
-        let size = match find(members, "size") {
-            Some(inner) => self.footprint(inner)?,
-            None => outer,
-        };
-        let deck = match find(members, "height") {
-            Some(over) => self.number_in(over, "height", 0.0..=*LENGTHS.end())?,
-            None => height,
-        };
+        let inner = find(members, "size").map(|inner| self.footprint(inner));
+        let over = find(members, "height").map(|over| self.number_in(over, "height", 0.0..=*LENGTHS.end()));
+        let (height, outer) = kind?;
+        let (size, deck) = (inner.unwrap_or(Some(outer))?, over.unwrap_or(Some(height))?);
         let has_walls = deck < height;
         let fits = |axis: usize| size[axis] < outer[axis] || !has_walls && size[axis] == outer[axis];
         if deck <= height && fits(0) && fits(1) {
