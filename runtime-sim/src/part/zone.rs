@@ -75,7 +75,8 @@ impl Seeing {
     fn each(&self, moving: &Moving, see: &See, mut take: impl FnMut(&OnLane)) {
         for item in see.borne_by(self.zone.lane) {
             let Some(motion) = moving.motion(item, &see.items[item].carrier) else { continue };
-            moving.on_lane(item, motion, see.items).for_each(|on_lane| take(&on_lane));
+            take(&moving.base_on_lane(item, motion, see.items));
+            moving.loads_on_lane(item, motion, see.items).iter().for_each(&mut take);
         }
     }
 

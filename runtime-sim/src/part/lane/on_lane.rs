@@ -29,13 +29,15 @@ impl Moving {
         std::iter::once(self.base_on_lane(base, motion, items)).chain(self.loads_on_lane(base, motion, items))
     }
 
-    fn base_on_lane(&self, base: usize, motion: Motion, items: &Items) -> OnLane {
+    /// An item on this lane.
+    pub fn base_on_lane(&self, base: usize, motion: Motion, items: &Items) -> OnLane {
         let size = items.dimensions(base).size;
         let half = self.lane().lengths_of([size.x, size.y])[0] / 2.0;
         OnLane { item: base, base, motion, ahead: 0.0, half, top: size.z }
     }
 
-    fn loads_on_lane(&self, base: usize, motion: Motion, items: &Items) -> Vec<OnLane> {
+    /// All that lies on an item on this lane, and on that.
+    pub fn loads_on_lane(&self, base: usize, motion: Motion, items: &Items) -> Vec<OnLane> {
         if items.loads_of(base).is_empty() {
             return Vec::new();
         }
