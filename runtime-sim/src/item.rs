@@ -203,16 +203,6 @@ impl Items {
         Some(Stack::new(floor, loads.collect()))
     }
 
-    /// Whether an item on another one is in a wall of that.
-    pub fn is_in_wall(&self, item: usize) -> bool {
-        let Carrier::On { item: under, offset } = self[item].carrier else { return false };
-        let on_under = Frame::new(offset, self.turn(item).to_degrees());
-        let walls = self.dimensions(under).solids();
-        let solids = self.dimensions(item).solids();
-        let mut solids = solids.iter().map(|solid| solid.in_frame(on_under));
-        solids.any(|solid| walls.iter().any(|wall| solid.is_in(wall)))
-    }
-
     /// As it is now: what a process makes of an item has those of its new kind.
     pub fn dimensions(&self, item: usize) -> Dimensions {
         self.dimensions[self[item].kind]

@@ -330,6 +330,21 @@ fn what_lies_on_a_tray_that_a_process_changes_comes_to_rest_again() {
     assert_eq!(end("makes: [tray, narrow];").0, narrow);
 }
 
+/// The piece lies on a small tray in a box.
+#[test]
+fn what_a_process_makes_longer_does_not_reach_through_a_wall() {
+    let box_ = ("tray", 0.1, [0.4, 0.3], r#", "bears": {"height": 0.01, "size": [0.38, 0.28]}"#);
+    let small = ("small", 0.02, [0.2, 0.15], r#", "bears": {}"#);
+    let kinds = [box_, small, PIECE, BAKED, ("longer", 0.05, [0.6, 0.06], "")];
+    let mut texts = trays(&kinds, &["small", "piece"], "");
+    texts.layout = texts.layout.replace("[0.41, 0.01, 0, 0]", "[0.32, 0.01, 0, 0]");
+    let end = reason(&texts.replaced(&[
+        ("-> Baking {}", "-> Baking { bake := true; }"),
+        ("kinds: [piece]; makes: [piece, baked];", "makes: [piece, longer];"),
+    ]));
+    assert_eq!(end, "interlock of trays: the process oven moves a longer into a tray");
+}
+
 #[test]
 fn a_piece_that_is_taken_off_its_tray_during_a_process_ends_the_run() {
     let operator = r#", "operator": [{"remove": "piece_2", "at_s": 13.5}]"#;

@@ -1,7 +1,7 @@
 //! What happens on trays, beside them and beyond them: each file of the folder says what it is about, and what it expects.
 //!
-//! `expect` has how the reason of the end begins; if wanted, what bears items at the end (`on`), which of them have left
-//! the line (`gone`), part of a note, and how often each pair came into contact.
+//! `expect` has how the reason of the end begins; if wanted, what bears items at the end (`on`), where along x
+//! they are (`at`), which of them have left the line (`gone`), part of a note, and how often each pair came into contact.
 
 use autogen_tests::{Texts, stepped, text};
 use serde_json::Value;
@@ -38,6 +38,10 @@ fn wrong(file: &Path) -> Option<String> {
             ("on", Value::Object(on)) => on.iter().all(|(name, carrier)| {
                 report.items.iter().any(|item| item.name == *name && item.carrier == *carrier)
             }),
+            ("at", Value::Object(at)) => at.iter().all(|(name, x)| {
+                let place = report.items.iter().find(|item| item.name == *name).map(|item| &item.place);
+                place.is_some_and(|place| place.contains(&format!("({:.3},", x.as_f64().unwrap_or(f64::NAN))))
+            }),
             ("gone", Value::Array(gone)) => {
                 report.items.iter().all(|item| !gone.contains(&Value::from(item.name.clone())))
             }
@@ -52,8 +56,11 @@ fn wrong(file: &Path) -> Option<String> {
             found.push(format!("{key}: not {value}"));
         }
     }
-    let items: Vec<_> =
-        report.items.iter().map(|item| format!("{} on {}", item.name, item.carrier)).collect();
+    let items: Vec<_> = report
+        .items
+        .iter()
+        .map(|item| format!("{} on {} at {}", item.name, item.carrier, item.place))
+        .collect();
     let counts: Vec<u32> = report.collisions.iter().map(|contact| contact.count).collect();
     let is = format!("{}; {:?}; {counts:?}; {}", report.reason, report.notes, items.join(", "));
     (!found.is_empty()).then(|| format!("{}: {}: {is}", file.display(), found.join(", ")))

@@ -7,7 +7,6 @@ mod settling;
 use cycle::Cycle;
 use distribution::{Distribution, TIMES, Times};
 
-
 use super::beam::{Beam, Crossing};
 use super::cylinder::End;
 use super::settings::{Form, Setting, Settings};

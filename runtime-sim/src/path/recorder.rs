@@ -108,7 +108,7 @@ impl Recorder {
                     let path = &mut self.paths[item];
                     path.cut(now_ms);
                     // The place of an event is that of the item at the bottom.
-                    let own = path.segments.last().filter(|_| from.item().is_some() && to.is_gone());
+                    let own = path.segments.last().filter(|_| from.item().is_some() && to.is_final());
                     let point = own.map_or(point, |last| last.place(last.end_ms));
                     path.segments.push(Segment {
                         begin_ms: now_ms,

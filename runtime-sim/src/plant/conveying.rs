@@ -38,6 +38,8 @@ pub struct Conveying {
     tracks: Vec<Track>,
     /// Of each lane, when it was checked last.
     speeds: Vec<f64>,
+    /// Events of items then, and whether any lay on others.
+    loaded: (usize, bool),
     /// When something happens next if no output changes, ms from the start of the run.
     next_ms: f64,
 }
@@ -95,7 +97,7 @@ impl Among<'_> {
 impl Conveying {
     pub fn new(line: &Line) -> Self {
         let tracks = tracks::tracks(line);
-        Self { speeds: vec![f64::NAN; tracks.len()], tracks, next_ms: f64::INFINITY }
+        Self { speeds: vec![f64::NAN; tracks.len()], tracks, loaded: (0, false), next_ms: f64::INFINITY }
     }
 
     /// Those that have lanes, once for each lane.
@@ -145,7 +147,10 @@ impl Conveying {
 
     /// Takes note of drives, cylinders and items that have changed by the start of a scan.
     pub fn look(&mut self, among: &mut Among, now_ms: u64) -> Option<Falls> {
-        let mut has_changed = false;
+        // What lies on an item may be in the way of others.
+        let loaded = (among.items.log().count(), among.items.has_loads());
+        let before = std::mem::replace(&mut self.loaded, loaded);
+        let mut has_changed = loaded.0 != before.0 && (loaded.1 || before.1);
         for (track, known) in self.tracks.iter_mut().zip(&mut self.speeds) {
             let lane = among.lane(track);
             let borne = among.items.borne_by(track.machine).iter();

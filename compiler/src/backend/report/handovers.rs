@@ -30,7 +30,8 @@ impl Handovers {
             let borne_by = |carrier: Carrier| under(carrier, &carriers);
             let (giver, taker) = (borne_by(from), borne_by(to));
             carriers.insert(item, to);
-            if moves_at_its_place(from, to) {
+            let goes_with_item = from.item().is_some() && to.is_gone();
+            if goes_with_item || moves_at_its_place(from, to) {
                 continue;
             }
             let handover = Handover { scan, item, from: giver };

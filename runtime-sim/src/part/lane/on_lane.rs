@@ -1,11 +1,13 @@
 //! What lies on a lane, and on other items there: what sensors see, and what goes on with it.
 
+use super::CentreLine;
 use super::moving::{Motion, Moving};
+use crate::carrier::Carrier;
 use crate::frame::Frame;
 use crate::item::Items;
 use crate::item::block::Block;
 use crate::part::{Running, See};
-use crate::point::Point;
+use crate::point::{Axis, Point};
 
 /// An item on a lane, or one that lies on such an item, with which it goes.
 #[derive(Clone, Copy, Debug)]
@@ -48,14 +50,21 @@ impl Moving {
         items.with_loads(base).skip(1).zip(self.blocks_on(base, items).into_iter().skip(1)).map(on_lane).collect()
     }
 
-    /// An item on this lane and all that lies on it, as it is turned there: from the middle of its underside, x ahead.
+    /// An item on this lane and all that lies on it, as it is turned there: x ahead of its middle, y to the left of the middle
+    /// line, from its underside up.
     pub fn blocks_on(&self, base: usize, items: &Items) -> Vec<Block> {
         let centre_line = &self.lane().centre_line;
         let turn = match centre_line.turns_items() {
             true => 0.0,
             false => items.turn(base).to_degrees() - centre_line.frame(0.0).yaw,
         };
-        let on_lane = Frame::new(Point::default(), turn);
+        let left = match (items[base].carrier, centre_line) {
+            // Across is along the other axis of the world.
+            (Carrier::Lane { across, .. }, CentreLine::Axis { along: Axis::X, .. }) => -across,
+            (Carrier::Lane { across, .. }, _) => across,
+            _ => 0.0,
+        };
+        let on_lane = Frame::new(Point::new(0.0, left, 0.0), turn);
         let block = |item: usize| {
             let frame = on_lane.then(items.on_base(item).1);
             Block::new(items.dimensions(item).size, frame.position, frame.yaw.to_radians())

@@ -279,10 +279,10 @@ impl Cycle {
         for (tray, before) in &decks {
             self.settle_on_tray(*tray, before, world)?;
         }
-        match place {
-            Some(before) => self.settle_at_place(item, &before, &joined, world),
-            None => Ok(()),
+        if let Some(before) = place {
+            self.settle_at_place(item, &before, &joined, world)?;
         }
+        self.check_apart(item, world)
     }
 
     /// What is missing for a start; empty if nothing is.

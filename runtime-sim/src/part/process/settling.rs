@@ -2,7 +2,7 @@
 
 use super::cycle::Cycle;
 use crate::carrier::Carrier;
-use crate::item::block::SAME_HEIGHT;
+use crate::item::block::{Block, SAME_HEIGHT};
 use crate::part::World;
 use crate::part::place::Stack;
 use crate::point::Point;
@@ -70,11 +70,43 @@ impl Cycle {
         }
         let height = |item: &usize| before.block(*item).map_or(0.0, |block| block.at().z);
         loads.sort_by(|one, other| height(one).total_cmp(&height(other)));
-        self.settle(&loads, before, Ground::Deck(tray), world)?;
-        match loads.into_iter().find(|load| world.items.is_in_wall(*load)) {
-            Some(load) => Err(self.moves_into(load, tray, world)),
-            None => Ok(()),
+        self.settle(&loads, before, Ground::Deck(tray), world)
+    }
+
+    /// The error names two items that are in one another now: an item or what lies on it, or one of these and what lies on
+    /// another item of the machine.
+    pub(super) fn check_apart(&self, item: usize, world: &World) -> Result<(), String> {
+        if !world.items.has_loads() {
+            return Ok(());
         }
+        let (see, ms) = (world.see(), world.next_ms() as f64);
+        let solids = |base: usize| -> Vec<(usize, Vec<Block>)> {
+            let part = world.items[base].carrier.part();
+            let Some(block) = part.and_then(|part| see.block(part, base, ms)) else { return Vec::new() };
+            let solids = |item: usize| {
+                let frame = block.frame().then(world.items.on_base(item).1);
+                let solids = world.items.dimensions(item).solids();
+                (item, solids.iter().map(|solid| solid.in_frame(frame)).collect())
+            };
+            world.items.with_loads(base).map(solids).collect()
+        };
+        let own = solids(item);
+        let others = world.items.borne_by(world.machine).iter().filter(|base| **base != item);
+        let others: Vec<_> = others.flat_map(|base| solids(*base)).collect();
+        for (number, (one, mine)) in own.iter().enumerate() {
+            // Items at a place and on a lane themselves are seen to there.
+            let beside = others.iter().filter(|(other, _)| {
+                [*one, *other].iter().any(|item| world.items[*item].carrier.item().is_some())
+            });
+            let mut all = own[..number].iter().chain(beside);
+            let is_in = |(_, theirs): &&(usize, Vec<Block>)| {
+                mine.iter().any(|mine| theirs.iter().any(|other| mine.is_in(other)))
+            };
+            if let Some((other, _)) = all.find(is_in) {
+                return Err(self.moves_into(*one, *other, world));
+            }
+        }
+        Ok(())
     }
 
     /// Items come to rest again, the lowest first, each on what was below it.

@@ -3,6 +3,7 @@
 use super::spot::Spot;
 use super::tracks::{self, Track};
 use super::{AT_ONCE, Among, SAME};
+use crate::item::block::Block;
 use crate::part::lane::{Motion, Moving};
 
 /// One that is farther in another one than this lies on it, m.
@@ -73,32 +74,56 @@ fn limits(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ms: f64
     let mut limits: Vec<Limit> = stops.map(|place| Limit { place, behind: None }).collect();
     let ahead = entries[..at].iter().enumerate().rev().take_while(|(_, other)| other.track == entry.track);
     // What lies on another one does not stop behind it.
-    let apart =
-        ahead.flat_map(|(other, of)| apart(tracks, among, of, entry).map(|apart| (other, of.place + apart)));
-    let mut limits_behind = apart.map(|(other, place)| Limit { place, behind: Some(other) });
-    limits.extend(limits_behind.find(|limit| limit.place <= entry.place + LIES_ON));
+    limits.extend(
+        ahead
+            .map(|(other, of)| Limit { place: of.place + of.half + entry.half, behind: Some(other) })
+            .find(|limit| limit.place <= entry.place + LIES_ON),
+    );
+    limits.extend(limits_by_loads(tracks, among, entries, at));
     if let Some(onto) = track.onto.filter(|_| entry.rider == 0 && track.sink.is_none()) {
         limits.extend(beyond_end(tracks, among, entries, at, onto));
     }
     limits
 }
 
-/// How far the middles of two items are apart that touch, m: by what lies on them, which may reach beyond them, then by
-/// themselves alone.
-fn apart(tracks: &[Track], among: &Among, ahead: &Entry, behind: &Entry) -> [f64; 2] {
-    let touch = ahead.half + behind.half;
+/// Where an item stops because something that lies on it, or on one ahead on its lane or on the next one, may reach beyond
+/// that.
+fn limits_by_loads(tracks: &[Track], among: &Among, entries: &[Entry], at: usize) -> Vec<Limit> {
     if !among.items.has_loads() {
-        return [touch; 2];
+        return Vec::new();
     }
+    let entry = &entries[at];
+    let lane = |track: usize| among.lane(&tracks[track]);
     let blocks = |entry: &Entry| {
-        let lane = among.lane(&tracks[entry.track]);
-        lane.blocks_on(lane.riders[entry.rider].item, among.items)
+        let item = lane(entry.track).riders[entry.rider].item;
+        lane(entry.track).blocks_on(item, among.items)
     };
-    let [ahead, behind] = [ahead, behind].map(blocks);
-    let pairs = ahead.iter().flat_map(|ahead| behind.iter().map(move |behind| (ahead, behind)));
+    let own = blocks(entry);
+    let mut limits = Vec::new();
+    for (number, other) in entries.iter().enumerate() {
+        let place = match other.track {
+            track if track == entry.track && number < at => other.place,
+            track if tracks[entry.track].onto == Some(track) && tracks[entry.track].sink.is_none() => {
+                let [end, begin] = [entry.track, track].map(|track| lane(track).lane().centre_line);
+                end.end() + other.place - begin.begin()
+            }
+            _ => continue,
+        };
+        let apart = apart_by_loads(&blocks(other), &own).map(|apart| place + apart);
+        let apart = apart.filter(|place| *place <= entry.place + LIES_ON);
+        limits.extend(apart.map(|place| Limit { place, behind: Some(number) }));
+    }
+    limits
+}
+
+/// How far the middles of two items are apart if something on one of them touches the other one or something on that, m; the
+/// items themselves come first.
+fn apart_by_loads(ahead: &[Block], behind: &[Block]) -> Option<f64> {
+    let pairs = ahead.iter().enumerate().flat_map(|(i, ahead)| {
+        behind.iter().enumerate().filter(move |(j, _)| i + j > 0).map(move |(_, behind)| (ahead, behind))
+    });
     let pairs = pairs.filter(|(ahead, behind)| ahead.is_across_from(behind));
-    let loads = pairs.map(|(ahead, behind)| behind.reach_ahead() + ahead.reach_back());
-    [loads.fold(touch, f64::max), touch]
+    pairs.map(|(ahead, behind)| behind.reach_ahead() + ahead.reach_back()).reduce(f64::max)
 }
 
 /// What is in the way of the first item of a lane on the lane after it, or beside it on another one that leads there.
@@ -112,10 +137,7 @@ fn beyond_end(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ont
         // On its way over from another lane it is in nobody's way before the joint.
         let comes_along = among.lane(&tracks[onto]).riders[last.rider].from == Some(entry.track);
         if comes_along || rear <= begin + SAME {
-            let places = apart(tracks, among, last, entry).map(|apart| end + last.place + apart - begin);
-            let is_ahead = |place: &f64| *place <= entry.place + LIES_ON;
-            let place = places.into_iter().find(is_ahead).unwrap_or(places[1]);
-            Limit { place, behind: Some(number) }
+            Limit { place: end + rear - begin + entry.half, behind: Some(number) }
         } else {
             Limit { place: end + entry.half, behind: None }
         }
