@@ -98,6 +98,11 @@ impl Block {
         self.is_beside(other) && self.overlaps(other)
     }
 
+    /// Whether a solid of one item is in one of another item.
+    pub fn are_in_one_another(one: &[Self], other: &[Self]) -> bool {
+        one.iter().any(|one| other.iter().any(|other| one.is_in(other)))
+    }
+
     /// Whether the two are in one another however they are turned: the upright cylinders inside them are.
     pub fn is_surely_in(&self, other: &Self) -> bool {
         let apart = libm::hypot(self.at.x - other.at.x, self.at.y - other.at.y);

@@ -2,6 +2,7 @@
 
 use super::Dimensions;
 use super::block::Block;
+use crate::frame::Frame;
 use crate::line::Deck;
 use crate::point::Point;
 
@@ -25,6 +26,11 @@ impl Dimensions {
             solids.push(block(Point::new(x, thick_y, long), Point::new(0.0, off_y, height)));
         }
         solids
+    }
+
+    /// The same where the item is in this frame.
+    pub fn solids_in(&self, frame: Frame) -> Vec<Block> {
+        self.solids().iter().map(|solid| solid.in_frame(frame)).collect()
     }
 }
 

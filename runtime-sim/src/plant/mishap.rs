@@ -32,7 +32,7 @@ impl Stands {
     }
 
     fn solids(&self) -> Vec<Block> {
-        self.of.solids().iter().map(|solid| solid.in_frame(self.frame)).collect()
+        self.of.solids_in(self.frame)
     }
 }
 
@@ -154,8 +154,7 @@ impl Plant {
         };
         match (one.carrier, other.carrier) {
             (Carrier::On { .. }, _) | (_, Carrier::On { .. }) => {
-                let solids = other.solids();
-                one.solids().iter().any(|solid| solids.iter().any(|other| solid.is_in(other)))
+                Block::are_in_one_another(&one.solids(), &other.solids())
             }
             (Carrier::Place { machine, part, .. }, Carrier::Place { part: of, .. }) => {
                 match stacks(machine, part) && (part == of || stacks(machine, of)) {

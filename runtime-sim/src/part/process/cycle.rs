@@ -1,7 +1,7 @@
 //! The cycles of a process.
 
-use super::settling::Ground;
 use super::Process;
+use super::settling::Ground;
 use crate::carrier::Carrier;
 use crate::item::Item;
 use crate::line::Kind;
@@ -207,7 +207,8 @@ impl Cycle {
             let free = self.slots.iter().enumerate();
             let slot = free.filter(|(number, _)| !used.contains(number)).find(|(_, slot)| !is_taken(slot));
             let kind = &self.kinds[see.items[other].kind];
-            let (number, offset) = slot.ok_or_else(|| format!("{} has no free slot for a {kind}", self.name))?;
+            let (number, offset) =
+                slot.ok_or_else(|| format!("{} has no free slot for a {kind}", self.name))?;
             used.push(number);
             world.lay(other, place, *offset);
             self.lay_down(other, world)?;
@@ -239,7 +240,8 @@ impl Cycle {
             return Some(format!("{} was moved during {}", self.item_text(item, &see), self.name));
         }
         let is_there = self.there(&see).any(|there| there == item);
-        let ends_late = work.ready_ms <= world.next_ms() && !self.is_there_at(item, work.ready_ms as f64, &see);
+        let ends_late =
+            work.ready_ms <= world.next_ms() && !self.is_there_at(item, work.ready_ms as f64, &see);
         if !is_there || ends_late {
             return Some(self.left(item, &see));
         }
@@ -273,7 +275,9 @@ impl Cycle {
             if is_resized && matches!(carrier, Carrier::Lane { .. }) {
                 let [from, to] = [kind, world.items[*piece].kind].map(|kind| &self.kinds[kind]);
                 let name = &self.name;
-                return Err(format!("{name} makes a {to} of a {from} on a conveyor, which is of another size"));
+                return Err(format!(
+                    "{name} makes a {to} of a {from} on a conveyor, which is of another size"
+                ));
             }
         }
         for (tray, before) in &decks {
@@ -353,7 +357,8 @@ impl Running for Cycle {
         if self.is_asked || self.slides(*item, see) {
             return now_ms as f64;
         }
-        let leaves = self.crossing.as_ref().map_or(f64::INFINITY, |crossing| crossing.next_change(see, now_ms));
+        let leaves =
+            self.crossing.as_ref().map_or(f64::INFINITY, |crossing| crossing.next_change(see, now_ms));
         leaves.min(*ready_ms as f64)
     }
 

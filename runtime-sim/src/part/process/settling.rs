@@ -85,8 +85,7 @@ impl Cycle {
             let Some(block) = part.and_then(|part| see.block(part, base, ms)) else { return Vec::new() };
             let solids = |item: usize| {
                 let frame = block.frame().then(world.items.on_base(item).1);
-                let solids = world.items.dimensions(item).solids();
-                (item, solids.iter().map(|solid| solid.in_frame(frame)).collect())
+                (item, world.items.dimensions(item).solids_in(frame))
             };
             world.items.with_loads(base).map(solids).collect()
         };
@@ -99,10 +98,7 @@ impl Cycle {
                 [*one, *other].iter().any(|item| world.items[*item].carrier.item().is_some())
             });
             let mut all = own[..number].iter().chain(beside);
-            let is_in = |(_, theirs): &&(usize, Vec<Block>)| {
-                mine.iter().any(|mine| theirs.iter().any(|other| mine.is_in(other)))
-            };
-            if let Some((other, _)) = all.find(is_in) {
+            if let Some((other, _)) = all.find(|(_, theirs)| Block::are_in_one_another(mine, theirs)) {
                 return Err(self.moves_into(*one, *other, world));
             }
         }

@@ -32,7 +32,9 @@ struct Limit {
 /// Sets how all items go from a time on; when something happens next, ms.
 pub fn move_on(tracks: &[Track], among: &mut Among, ms: f64) -> f64 {
     let mut entries = entries(tracks, among, ms);
-    let all: Vec<Vec<Limit>> = (0..entries.len()).map(|at| limits(tracks, among, &entries, at, ms)).collect();
+    let loaded = Loaded::of(tracks, among, &entries);
+    let limits = |at| limits(tracks, among, &entries, loaded.as_ref(), at, ms);
+    let all: Vec<Vec<Limit>> = (0..entries.len()).map(limits).collect();
     for (entry, limits) in entries.iter_mut().zip(all) {
         entry.limits = limits;
     }
@@ -66,7 +68,14 @@ fn entries(tracks: &[Track], among: &Among, ms: f64) -> Vec<Entry> {
 }
 
 /// All that is in the way of an item.
-fn limits(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ms: f64) -> Vec<Limit> {
+fn limits(
+    tracks: &[Track],
+    among: &Among,
+    entries: &[Entry],
+    loaded: Option<&Loaded>,
+    at: usize,
+    ms: f64,
+) -> Vec<Limit> {
     let entry = &entries[at];
     let track = &tracks[entry.track];
     let rider = &among.lane(track).riders[entry.rider];
@@ -79,41 +88,65 @@ fn limits(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ms: f64
             .map(|(other, of)| Limit { place: of.place + of.half + entry.half, behind: Some(other) })
             .find(|limit| limit.place <= entry.place + LIES_ON),
     );
-    limits.extend(limits_by_loads(tracks, among, entries, at));
+    limits.extend(loaded.iter().flat_map(|loaded| loaded.limits(tracks, among, entries, at)));
     if let Some(onto) = track.onto.filter(|_| entry.rider == 0 && track.sink.is_none()) {
         limits.extend(beyond_end(tracks, among, entries, at, onto));
     }
     limits
 }
 
-/// Where an item stops because something that lies on it, or on one ahead on its lane or on the next one, may reach beyond
-/// that.
-fn limits_by_loads(tracks: &[Track], among: &Among, entries: &[Entry], at: usize) -> Vec<Limit> {
-    if !among.items.has_loads() {
-        return Vec::new();
-    }
-    let entry = &entries[at];
-    let lane = |track: usize| among.lane(&tracks[track]);
-    let blocks = |entry: &Entry| {
-        let item = lane(entry.track).riders[entry.rider].item;
-        lane(entry.track).blocks_on(item, among.items)
-    };
-    let own = blocks(entry);
-    let mut limits = Vec::new();
-    for (number, other) in entries.iter().enumerate() {
-        let place = match other.track {
-            track if track == entry.track && number < at => other.place,
-            track if tracks[entry.track].onto == Some(track) && tracks[entry.track].sink.is_none() => {
-                let [end, begin] = [entry.track, track].map(|track| lane(track).lane().centre_line);
-                end.end() + other.place - begin.begin()
-            }
-            _ => continue,
+/// What items on lanes take up with all that lies on them.
+struct Loaded {
+    /// Of each entry, itself first.
+    blocks: Vec<Vec<Block>>,
+    /// How far any of them reaches behind the middle of its item.
+    reach_back: f64,
+}
+
+impl Loaded {
+    /// None if nothing lies on any item.
+    fn of(tracks: &[Track], among: &Among, entries: &[Entry]) -> Option<Self> {
+        if !among.items.has_loads() {
+            return None;
+        }
+        let blocks = |entry: &Entry| {
+            let lane = among.lane(&tracks[entry.track]);
+            lane.blocks_on(lane.riders[entry.rider].item, among.items)
         };
-        let apart = apart_by_loads(&blocks(other), &own).map(|apart| place + apart);
-        let apart = apart.filter(|place| *place <= entry.place + LIES_ON);
-        limits.extend(apart.map(|place| Limit { place, behind: Some(number) }));
+        let blocks: Vec<Vec<Block>> = entries.iter().map(blocks).collect();
+        let reach_back = blocks.iter().flatten().map(Block::reach_back).fold(0.0, f64::max);
+        Some(Self { blocks, reach_back })
     }
-    limits
+
+    /// Where an item stops because something that lies on it, or on one ahead on its lane or on the next one, may reach
+    /// beyond that.
+    fn limits(&self, tracks: &[Track], among: &Among, entries: &[Entry], at: usize) -> Vec<Limit> {
+        let entry = &entries[at];
+        let (track, own) = (&tracks[entry.track], &self.blocks[at]);
+        let here = (0..at).rev().take_while(|other| entries[*other].track == entry.track);
+        let here = here.map(|other| (other, entries[other].place));
+        let onto = track.onto.filter(|_| track.sink.is_none());
+        let beyond = onto.into_iter().flat_map(|onto| {
+            let [end, begin] = [entry.track, onto].map(|track| among.lane(&tracks[track]).lane().centre_line);
+            let offset = end.end() - begin.begin();
+            let there = (0..entries.len()).rev().filter(move |other| entries[*other].track == onto);
+            there.map(move |other| (other, entries[other].place + offset))
+        });
+        let reach = own.iter().map(Block::reach_ahead).fold(0.0, f64::max) + self.reach_back;
+        let mut limits = Vec::new();
+        // All that is between the two keeps them apart.
+        let mut between = entry.half;
+        for (other, place) in here.chain(beyond) {
+            if reach <= between {
+                break;
+            }
+            between += 2.0 * entries[other].half;
+            let place = apart_by_loads(&self.blocks[other], own).map(|apart| place + apart);
+            let place = place.filter(|place| *place <= entry.place + LIES_ON);
+            limits.extend(place.map(|place| Limit { place, behind: Some(other) }));
+        }
+        limits
+    }
 }
 
 /// How far the middles of two items are apart if something on one of them touches the other one or something on that, m; the

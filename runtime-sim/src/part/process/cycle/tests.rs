@@ -23,7 +23,15 @@ fn process(settings: Vec<(&'static str, Value)>) -> Result<Process, String> {
 }
 
 fn kind(name: &str) -> Kind {
-    Kind { name: name.into(), height: 0.05, grasp: 0.05, size: [0.1, 0.1], is: Vec::new(), mass: 0.1, deck: None }
+    Kind {
+        name: name.into(),
+        height: 0.05,
+        grasp: 0.05,
+        size: [0.1, 0.1],
+        is: Vec::new(),
+        mass: 0.1,
+        deck: None,
+    }
 }
 
 fn cycle(settings: Vec<(&'static str, Value)>, place: [u64; 2]) -> Cycle {
@@ -59,7 +67,11 @@ fn a_share_of_the_items_becomes_another_kind() {
         let noise = 4.0 * (share * (1.0 - share) / f64::from(CYCLES)).sqrt();
         assert!((found - share).abs() <= noise, "{kind}: {found}");
     }
-    let all = vec![("time", Value::Number(1.0)), ("rejects", words(&["blank", "scrap"])), ("shares", numbers(&[1.0]))];
+    let all = vec![
+        ("time", Value::Number(1.0)),
+        ("rejects", words(&["blank", "scrap"])),
+        ("shares", numbers(&[1.0])),
+    ];
     assert!(each(cycle(all, [1, 2]), |cycle| cycle.made_of(0, 0)).iter().all(|made| *made == 2));
 }
 
@@ -132,8 +144,14 @@ fn wrong_settings_are_refused() {
             vec![("time", ms(1e9 + 1.0))],
             "the setting time is no time over 0 and of at most 1000000 s, in whole milliseconds",
         ),
-        (vec![("time", ms(5.0)), ("shortest", ms(6.0))], "its times are not in order: shortest, time, longest"),
-        (vec![("time", ms(5.0)), ("longest", ms(4.0))], "its times are not in order: shortest, time, longest"),
+        (
+            vec![("time", ms(5.0)), ("shortest", ms(6.0))],
+            "its times are not in order: shortest, time, longest",
+        ),
+        (
+            vec![("time", ms(5.0)), ("longest", ms(4.0))],
+            "its times are not in order: shortest, time, longest",
+        ),
         (vec![("time", ms(5.0)), ("deviation", ms(4.0))], "a fixed time has no deviation"),
         (vec![uniform.clone(), ("time", ms(5.0))], "a uniform time needs the setting shortest"),
         (
@@ -144,14 +162,20 @@ fn wrong_settings_are_refused() {
             vec![uniform, ("shortest", ms(9.0)), ("longest", ms(4.0))],
             "its times are not in order: shortest, time, longest",
         ),
-        (vec![("time", ms(5.0)), ("distribution", word("normal"))], "a normal time needs the setting deviation"),
+        (
+            vec![("time", ms(5.0)), ("distribution", word("normal"))],
+            "a normal time needs the setting deviation",
+        ),
         (
             vec![("time", ms(5.0)), ("distribution", word("gamma"))],
             "there is no distribution `gamma`: distributions are fixed, triangular, uniform, normal, exponential",
         ),
         (vec![("time", numbers(&[5.0, 6.0]))], "time has 2 times: name their kinds in `kinds`"),
         (vec![("time", numbers(&[5.0, 6.0, 7.0])), kinds.clone()], "time has 3 times for 2 kinds"),
-        (vec![("time", numbers(&[])), kinds], "time is an empty list: write a time, or one for each of `kinds`"),
+        (
+            vec![("time", numbers(&[])), kinds],
+            "time is an empty list: write a time, or one for each of `kinds`",
+        ),
         (vec![("time", ms(5.0)), ("kinds", words(&["a", "a"]))], "the setting kinds names a twice"),
         (rejects(&[0.5]), "the setting rejects has 2 pairs, and shares 1 numbers"),
         (rejects(&[0.5, -0.1]), "a share is a number from 0 to 1, not -0.1"),
