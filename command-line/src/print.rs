@@ -5,10 +5,9 @@ use super::load::Failure;
 use super::options::{Format, InputOptions};
 use crate::Status;
 use autogen::diagnostic::{self, Diagnostic, Severity};
-use autogen::lower::{Apart, Handover, Loss, Lost, Passage, Verdict};
+use autogen::lower::{Apart, Handover, Loss, Lost, Passage, Passes, Verdict};
 use autogen::plain;
 use autogen::source::Sources;
-use runtime_sim::plant::By;
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal, Write};
 
@@ -157,11 +156,11 @@ fn handover_json(Handover { from, to, margin, wrist_room }: &Handover) -> Value 
 
 fn passage_json(Passage { from, to, by }: &Passage) -> Value {
     match by {
-        By::Joint { margin: [off, turn] } => {
+        Passes::Joint([off, turn]) => {
             json!({ "from": from, "to": to, "by": "joint", "margin_mm": 1000.0 * off, "margin_deg": turn })
         }
-        By::Branch => json!({ "from": from, "to": to, "by": "branch" }),
-        By::Fall => json!({ "from": from, "to": to, "by": "fall" }),
+        Passes::Branch(part) => json!({ "from": from, "to": to, "by": "branch", "part": part }),
+        Passes::Fall => json!({ "from": from, "to": to, "by": "fall" }),
     }
 }
 
@@ -219,9 +218,9 @@ pub fn verdict(v: &Verdict) -> String {
         let (width, to_width) = (width(|p| &p.from), width(|p| &p.to));
         for Passage { from, to, by } in &v.passages {
             let by = match by {
-                By::Joint { margin: [off, turn] } => format!("{:.1} mm, {turn:.2} degrees", 1000.0 * off),
-                By::Branch => "diverter or pusher".into(),
-                By::Fall => "may fall".into(),
+                Passes::Joint([off, turn]) => format!("{:.1} mm, {turn:.2} degrees", 1000.0 * off),
+                Passes::Branch(part) => format!("by {part}"),
+                Passes::Fall => "may fall".into(),
             };
             text += &format!("  {from:width$} -> {to:to_width$}  {by}\n");
         }

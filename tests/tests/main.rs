@@ -16,6 +16,7 @@ mod examples;
 mod fault_campaign;
 mod faults;
 mod figures;
+mod flow;
 mod forgotten;
 mod format;
 mod generated;

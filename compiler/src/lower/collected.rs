@@ -1,5 +1,6 @@
 //! Whether items can get to the sinks that should collect them, and to the stations whose orders ask for them.
 
+mod along;
 mod by_hand;
 mod missing;
 
@@ -8,12 +9,13 @@ use crate::connect::Edge;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 use crate::scenario::Scenario;
+use along::Beside;
 use by_hand::ByHand;
 use missing::{Asked, Missing};
 use runtime_sim::line::{self, Goal, Line};
 use runtime_sim::part::Primitive;
 use runtime_sim::part::process::Process;
-use runtime_sim::plant::Transfer;
+use runtime_sim::plant::{By, Transfer};
 use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};
 
@@ -25,6 +27,10 @@ enum Spot {
     /// Elsewhere on a machine.
     Machine(usize),
 }
+
+/// Where items of each kind may get to: on a lane with the least distance of their middles from its beginning, m, elsewhere
+/// with 0.
+type Reached = HashMap<(Spot, usize), f64>;
 
 /// One for each kind that a sink should collect, or that the orders of a station ask for, and that cannot get there.
 /// `edges` are those between machines.
@@ -56,7 +62,7 @@ pub fn out_of_reach(
     let mut told: HashSet<(usize, usize)> = HashSet::new();
     for order in line.scenario.orders.iter().filter(|_| has_arms) {
         let gets = |kind: usize| {
-            order.stations.iter().any(|station| reached.contains(&(Spot::Machine(*station), kind)))
+            order.stations.iter().any(|station| reached.contains_key(&(Spot::Machine(*station), kind)))
         };
         let kinds = (0..line.kinds.len()).filter(|kind| order.parts[*kind] > 0);
         for kind in kinds.filter(|kind| !gets(*kind)) {
@@ -113,9 +119,9 @@ pub fn losses(line: &Line, edges: &[Edge], transfers: &[Transfer]) -> Vec<Loss> 
         }
     }
     let whole = reached(line, handovers(edges), transfers, None);
-    let lost = |spot: Spot, at: &str, left: &HashSet<(Spot, usize)>| -> Lost {
-        let all = (0..line.kinds.len()).filter(|kind| whole.contains(&(spot, *kind)));
-        let (others, kinds): (Vec<_>, Vec<_>) = all.partition(|kind| left.contains(&(spot, *kind)));
+    let lost = |spot: Spot, at: &str, left: &Reached| -> Lost {
+        let all = (0..line.kinds.len()).filter(|kind| whole.contains_key(&(spot, *kind)));
+        let (others, kinds): (Vec<_>, Vec<_>) = all.partition(|kind| left.contains_key(&(spot, *kind)));
         let names = |kinds: Vec<usize>| kinds.into_iter().map(|kind| line.kinds[kind].name.clone()).collect();
         Lost { at: at.into(), kinds: names(kinds), others: names(others) }
     };
@@ -138,7 +144,7 @@ pub fn comes_onto<'a>(
     let all = OnceCell::new();
     move |(machine, part), kind| {
         let reached = all.get_or_init(|| reached(line, handovers(edges), transfers, None));
-        reached.contains(&(Spot::Lane(machine, part), kind))
+        reached.contains_key(&(Spot::Lane(machine, part), kind))
     }
 }
 
@@ -146,9 +152,9 @@ fn has_grip(line: &Line, machine: usize) -> bool {
     line.machines[machine].parts.iter().any(|part| matches!(part.primitive, Primitive::Grip(_)))
 }
 
-fn comes_to(line: &Line, reached: &HashSet<(Spot, usize)>, sink: &line::Collected, kind: usize) -> bool {
+fn comes_to(line: &Line, reached: &Reached, sink: &line::Collected, kind: usize) -> bool {
     match &line.machines[sink.machine].parts[sink.part].primitive {
-        Primitive::Sink(found) => reached.contains(&(Spot::Lane(sink.machine, found.lane), kind)),
+        Primitive::Sink(found) => reached.contains_key(&(Spot::Lane(sink.machine, found.lane), kind)),
         _ => true,
     }
 }
@@ -159,17 +165,18 @@ fn reached(
     handovers: impl Iterator<Item = [usize; 2]>,
     transfers: &[Transfer],
     missing: Option<usize>,
-) -> HashSet<(Spot, usize)> {
+) -> Reached {
     let lanes = |machine: usize| {
         let parts = line.machines[machine].parts.iter().enumerate();
         let lanes = parts.filter(|(_, part)| matches!(part.primitive, Primitive::Lane(_)));
         lanes.map(move |(part, _)| Spot::Lane(machine, part))
     };
-    let mut open: Vec<(Spot, usize)> = Vec::new();
+    let mut open: Vec<(Spot, usize, f64)> = Vec::new();
     for supply in &line.scenario.supply {
         for part in &line.machines[supply.belt].parts {
             if let Primitive::Source(source) = &part.primitive {
-                open.extend(supply.items.iter().map(|kind| (Spot::Lane(supply.belt, source.lane), *kind)));
+                let spot = Spot::Lane(supply.belt, source.lane);
+                open.extend(supply.items.iter().map(|kind| (spot, *kind, source.inset)));
             }
         }
     }
@@ -182,54 +189,71 @@ fn reached(
     };
     let mut hands_to = vec![Vec::new(); line.machines.len()];
     handovers.for_each(|[from, to]| hands_to[from].push(to));
-    let mut reached = HashSet::new();
-    while let Some((spot, kind)) = open.pop() {
+    let mut reached = Reached::new();
+    while let Some((spot, kind, first)) = open.pop() {
         let (Spot::Lane(machine, _) | Spot::Machine(machine)) = spot;
         if missing == Some(machine) {
             continue;
         }
-        if !reached.insert((spot, kind)) {
+        let known = reached.entry((spot, kind)).or_insert(f64::INFINITY);
+        if first >= *known {
             continue;
         }
+        *known = first;
         match spot {
             Spot::Lane(machine, part) => {
                 let next = leads_to.get(&(machine, part)).into_iter().flatten();
-                let next = next.filter(|transfer| transfer.kinds.contains(&kind));
-                open.extend(next.map(|transfer| (onto(transfer.to), kind)));
-                open.push((Spot::Machine(machine), kind));
+                let next = next
+                    .filter(|transfer| transfer.kinds.contains(&kind) && goes(line, transfer, kind, first));
+                open.extend(next.map(|transfer| (onto(transfer.to), kind, 0.0)));
+                open.push((Spot::Machine(machine), kind, 0.0));
             }
             Spot::Machine(machine) => {
                 for &to in &hands_to[machine] {
-                    open.push((Spot::Machine(to), kind));
-                    open.extend(lanes(to).map(|lane| (lane, kind)));
+                    open.push((Spot::Machine(to), kind, 0.0));
+                    open.extend(lanes(to).map(|lane| (lane, kind, 0.0)));
                 }
                 if has_grip(line, machine) {
-                    open.extend(lanes(machine).map(|lane| (lane, kind)));
+                    open.extend(lanes(machine).map(|lane| (lane, kind, 0.0)));
                 }
             }
         }
-        open.extend(made_at(line, spot, kind).map(|made| (spot, made)));
+        open.extend(made_at(line, spot, kind, first).map(|(made, first)| (spot, made, first)));
     }
     reached
 }
 
-/// The kinds that one becomes there: on a lane by what works on it, elsewhere on a machine by what works at its places.
-fn made_at(line: &Line, spot: Spot, kind: usize) -> impl Iterator<Item = usize> {
-    let (Spot::Lane(machine, _) | Spot::Machine(machine)) = spot;
-    let is_here = move |process: &&Process| match spot {
-        Spot::Lane(_, lane) => process.at.is_some() && process.on == lane,
-        Spot::Machine(_) => process.at.is_none(),
-    };
-    made_by(line, line.machines[machine].processes().map(|(_, process)| process).filter(is_here), kind)
+/// Whether an item goes by a transfer whose middle comes onto the first lane at `first`.
+fn goes(line: &Line, transfer: &Transfer, kind: usize, first: f64) -> bool {
+    let machine = transfer.from.0;
+    match transfer.by {
+        By::Branch { part } => Beside::of(line, (machine, part), kind)
+            .is_none_or(|branch| branch.reached(line, machine, first).is_ok()),
+        By::Joint { .. } | By::Fall => true,
+    }
 }
 
-/// The kinds that one becomes by these processes.
-fn made_by<'a>(
-    line: &'a Line,
-    processes: impl Iterator<Item = &'a Process>,
-    kind: usize,
-) -> impl Iterator<Item = usize> {
-    let made = processes.flat_map(Process::made);
-    let made = made.filter(move |[from, _]| *from == line.kinds[kind].name);
+/// The kinds that one becomes there, and from where on: on a lane by what works on it, elsewhere on a machine by what works
+/// at its places.
+fn made_at(line: &Line, spot: Spot, kind: usize, first: f64) -> impl Iterator<Item = (usize, f64)> {
+    let (Spot::Lane(machine, _) | Spot::Machine(machine)) = spot;
+    let parts = line.machines[machine].parts.iter().enumerate();
+    let processes = parts.filter_map(move |(part, of)| {
+        let Primitive::Process(process) = &of.primitive else { return None };
+        let from = match (spot, Beside::of(line, (machine, part), kind)) {
+            (Spot::Lane(_, lane), Some(beside)) if beside.lane == lane => {
+                beside.reached(line, machine, first).ok()?
+            }
+            (Spot::Machine(_), None) => 0.0,
+            _ => return None,
+        };
+        Some((process, from))
+    });
+    processes.flat_map(move |(process, from)| made_by(line, process, kind).map(move |made| (made, from)))
+}
+
+/// The kinds that one becomes by a process.
+fn made_by<'a>(line: &'a Line, process: &'a Process, kind: usize) -> impl Iterator<Item = usize> + 'a {
+    let made = process.made().filter(move |[from, _]| *from == line.kinds[kind].name);
     made.filter_map(|[_, to]| line.kinds.iter().position(|kind| kind.name == to))
 }

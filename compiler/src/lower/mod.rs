@@ -135,7 +135,17 @@ pub struct Verdict {
 pub struct Passage {
     pub from: String,
     pub to: String,
-    pub by: By,
+    pub by: Passes,
+}
+
+/// How items pass from one conveyor to another one, as [`By`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Passes {
+    /// The margins in m and degrees.
+    Joint([f64; 2]),
+    /// By this part.
+    Branch(String),
+    Fall,
 }
 
 /// What is lost without a machine.
@@ -181,8 +191,14 @@ impl Verdict {
             let machine = &line.machines[machine];
             format!("{}.{}", machine.name, machine.parts[part].name)
         };
-        let passage =
-            |Transfer { from, to, by, .. }: &Transfer| Passage { from: name(*from), to: name(*to), by: *by };
+        let passage = |Transfer { from, to, by, .. }: &Transfer| {
+            let by = match by {
+                By::Joint { margin } => Passes::Joint(*margin),
+                By::Branch { part } => Passes::Branch(name((from.0, *part))),
+                By::Fall => Passes::Fall,
+            };
+            Passage { from: name(*from), to: name(*to), by }
+        };
         self.passages = transfers.iter().map(passage).collect();
         self.losses = collected::losses(line, edges, transfers);
         // What nobody hands over to may have its items from a conveyor.

@@ -1,14 +1,14 @@
 //! What is said of a kind that cannot get to where it is asked for.
 
+use super::along::{Beside, Missed};
 use super::by_hand::ByHand;
-use super::{Spot, made_by};
+use super::{Reached, Spot, made_by};
 use crate::diagnostic::Diagnostic;
 use crate::layout::decode::listing;
 use crate::source::Spanned;
 use runtime_sim::line::Line;
 use runtime_sim::part::Primitive;
 use runtime_sim::plant::{By, Transfer};
-use std::collections::HashSet;
 
 /// Who asks for it, by the name that is shown.
 pub enum Asked<'a> {
@@ -21,7 +21,7 @@ pub struct Missing<'a> {
     pub line: &'a Line,
     pub transfers: &'a [Transfer],
     pub by_hand: &'a ByHand,
-    pub reached: &'a HashSet<(Spot, usize)>,
+    pub reached: &'a Reached,
 }
 
 impl Missing<'_> {
@@ -36,20 +36,23 @@ impl Missing<'_> {
         };
         let diagnostic = Diagnostic::new("E0410", place, format!("no `{name}` can get to {to}"));
         let machines = line.machines.iter().enumerate();
-        let passed = machines.filter(|(number, _)| reached.contains(&(Spot::Machine(*number), kind)));
+        let passed = machines.filter(|(number, _)| reached.contains_key(&(Spot::Machine(*number), kind)));
         let (numbers, passed): (Vec<usize>, Vec<&str>) =
             passed.map(|(number, machine)| (number, machine.name.as_str())).unzip();
+        let misplaced = misplaced(line, reached);
         if passed.is_empty() {
             let makers = line.machines.iter().flat_map(|machine| {
                 let from = line.kinds.iter().enumerate();
                 let from = from.filter(move |(from, _)| {
-                    made_by(line, machine.processes().map(|(_, process)| process), *from).any(|to| to == kind)
+                    machine.processes().any(|(_, process)| made_by(line, process, *from).any(|to| to == kind))
                 });
                 from.map(|(_, from)| format!("{} makes it of a `{}`", machine.name, from.name))
             });
             let makers: Vec<String> = makers.collect();
             let diagnostic = diagnostic.note(format!("no source brings a `{name}`"));
-            return if makers.is_empty() {
+            return if !misplaced.is_empty() {
+                noted(diagnostic, &misplaced).help(MOVE)
+            } else if makers.is_empty() {
                 diagnostic.note(format!("no process makes a `{name}`")).help(format!(
                     "add `{name}` to `items` of `supply`, let a process make it (`makes: [KIND, {name}]`), or take it \
                      out of {from}"
@@ -76,6 +79,9 @@ impl Missing<'_> {
                 "the tool of {arm} stays at least {apart:.3} m away from items on {other}, the nearest of these machines"
             ));
         }
+        if !misplaced.is_empty() {
+            return noted(diagnostic, &misplaced).help(MOVE);
+        }
         diagnostic.help(match asked {
             Asked::Sink(_) => {
                 "let a conveyor begin where the one before it ends, or name a sink after these machines in the goal"
@@ -90,13 +96,49 @@ impl Missing<'_> {
     }
 }
 
+/// What may help where something stands along a conveyor that items do not get to.
+const MOVE: &str = "move what no item gets to, the sink or the source along the conveyor, or change the goal";
+/// No more parts are named that stand where items do not get to.
+const MOST_NAMED: usize = 5;
+
+fn noted(diagnostic: Diagnostic, notes: &[String]) -> Diagnostic {
+    notes.iter().take(MOST_NAMED).fold(diagnostic, |diagnostic, note| diagnostic.note(note.clone()))
+}
+
+/// A text for each process, diverter and pusher along a conveyor that kinds do not get to which are on this conveyor.
+fn misplaced(line: &Line, reached: &Reached) -> Vec<String> {
+    let mut texts = Vec::new();
+    for (number, machine) in line.machines.iter().enumerate() {
+        for (part, of) in machine.parts.iter().enumerate() {
+            let works_on = |kind: usize| match &of.primitive {
+                Primitive::Process(process) => made_by(line, process, kind).next().is_some(),
+                _ => true,
+            };
+            let missed = (0..line.kinds.len()).filter(|kind| works_on(*kind)).find_map(|kind| {
+                let beside = Beside::of(line, (number, part), kind)?;
+                let first = reached.get(&(Spot::Lane(number, beside.lane), kind))?;
+                Some((kind, beside.reached(line, number, *first).err()?, beside))
+            });
+            let Some((kind, missed, Beside { lane, at, .. })) = missed else { continue };
+            let (kind, name) = (&line.kinds[kind].name, |part: usize| &machine.parts[part].name);
+            let gets = match missed {
+                Missed::Behind(first) => format!("comes onto it at {first:.3} m"),
+                Missed::Before(last, Some(sink)) => format!("leaves it at {last:.3} m, by {}", name(sink)),
+                Missed::Before(last, None) => format!("leaves it at its end, at {last:.3} m"),
+            };
+            texts.push(format!(
+                "{}.{} is at {at:.3} m of {}: the middle of a `{kind}` {gets}",
+                machine.name,
+                of.name,
+                name(lane)
+            ));
+        }
+    }
+    texts
+}
+
 /// The conveyors at the end of which a kind falls onto neither a conveyor nor a place.
-fn open_ends(
-    line: &Line,
-    transfers: &[Transfer],
-    reached: &HashSet<(Spot, usize)>,
-    kind: usize,
-) -> Vec<String> {
+fn open_ends(line: &Line, transfers: &[Transfer], reached: &Reached, kind: usize) -> Vec<String> {
     let mut ends = Vec::new();
     for (number, machine) in line.machines.iter().enumerate() {
         for (part, of) in machine.parts.iter().enumerate() {
@@ -105,9 +147,11 @@ fn open_ends(
                 parts.any(|other| matches!(&other.primitive, Primitive::Sink(sink) if sink.lane == part))
             };
             let goes_on = |transfer: &Transfer| {
-                transfer.from == (number, part) && transfer.by != By::Branch && transfer.kinds.contains(&kind)
+                transfer.from == (number, part)
+                    && !matches!(transfer.by, By::Branch { .. })
+                    && transfer.kinds.contains(&kind)
             };
-            if reached.contains(&(Spot::Lane(number, part), kind))
+            if reached.contains_key(&(Spot::Lane(number, part), kind))
                 && !has_sink()
                 && !transfers.iter().any(goes_on)
             {

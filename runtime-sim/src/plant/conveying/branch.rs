@@ -57,6 +57,8 @@ impl Stops {
 /// A stopper, a diverter or a pusher on a lane.
 #[derive(Clone, Debug)]
 pub struct Branch {
+    /// Of the machine.
+    pub part: usize,
     pub kind: Kind,
     /// On the centre line.
     pub place: f64,

@@ -191,24 +191,21 @@ fn branches(
     number: &dyn Fn(usize) -> Option<usize>,
 ) -> Vec<Branch> {
     let begin = lane.centre_line.begin();
-    let branch = |kind: Kind, at: f64, cylinder: usize| Branch {
-        kind,
-        place: begin - at,
-        stops: Stops::of(machine, cylinder),
-    };
-    let parts = machine.parts.iter().filter_map(|other| match &other.primitive {
-        Primitive::Stopper(stopper) if stopper.lane == part => {
-            Some(branch(Kind::Stopper, stopper.at, stopper.cylinder))
-        }
-        Primitive::Diverter(diverter) if diverter.lane == part => {
-            let onto = number(diverter.onto)?;
-            Some(branch(Kind::Diverter { onto }, diverter.at, diverter.cylinder))
-        }
-        Primitive::Pusher(pusher) if pusher.lane == part => {
-            let (onto, half) = (number(pusher.onto)?, pusher.width / 2.0);
-            Some(branch(Kind::Pusher { onto, half }, pusher.at, pusher.cylinder))
-        }
-        _ => None,
+    let parts = machine.parts.iter().enumerate().filter_map(|(other, of)| {
+        let (kind, at, cylinder) = match &of.primitive {
+            Primitive::Stopper(stopper) if stopper.lane == part => {
+                (Kind::Stopper, stopper.at, stopper.cylinder)
+            }
+            Primitive::Diverter(diverter) if diverter.lane == part => {
+                (Kind::Diverter { onto: number(diverter.onto)? }, diverter.at, diverter.cylinder)
+            }
+            Primitive::Pusher(pusher) if pusher.lane == part => {
+                let (onto, half) = (number(pusher.onto)?, pusher.width / 2.0);
+                (Kind::Pusher { onto, half }, pusher.at, pusher.cylinder)
+            }
+            _ => return None,
+        };
+        Some(Branch { part: other, kind, place: begin - at, stops: Stops::of(machine, cylinder) })
     });
     parts.collect()
 }

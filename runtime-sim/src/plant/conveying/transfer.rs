@@ -22,8 +22,8 @@ pub enum By {
     /// One begins where the other one ends, at some end of their cylinders: by so many m and degrees more they could be
     /// apart and turned.
     Joint { margin: [f64; 2] },
-    /// A diverter or a pusher.
-    Branch,
+    /// A diverter or a pusher, a part of the machine of the first one.
+    Branch { part: usize },
     /// Half of an item beyond the end of one, the other one is below.
     Fall,
 }
@@ -46,12 +46,12 @@ pub fn transfers(line: &Line) -> Vec<Transfer> {
             {
                 transfers.push(Transfer { from, to, by: By::Joint { margin }, kinds: all.clone() });
             }
-            if branches_onto(track, number) {
-                transfers.push(Transfer { from, to, by: By::Branch, kinds: all.clone() });
-            }
+            let branches = branches_onto(track, number).map(|part| By::Branch { part });
+            transfers.extend(branches.map(|by| Transfer { from, to, by, kinds: all.clone() }));
         }
         let own = transfers[before..].iter();
-        let joined: Vec<_> = own.filter(|own| own.by != By::Branch).map(|own| own.to).collect();
+        let joined: Vec<_> =
+            own.filter(|own| !matches!(own.by, By::Branch { .. })).map(|own| own.to).collect();
         for (to, kinds) in falls(line, track, &ground) {
             if !joined.contains(&to) {
                 transfers.push(Transfer { from, to, by: By::Fall, kinds });
@@ -80,11 +80,13 @@ fn falls(line: &Line, track: &Track, ground: &Ground) -> BTreeMap<(usize, usize)
     falls
 }
 
-fn branches_onto(track: &Track, number: usize) -> bool {
-    track.branches.iter().any(|branch| match branch.kind {
+/// The diverters and pushers of a lane that bring items onto the one of this number.
+fn branches_onto(track: &Track, number: usize) -> impl Iterator<Item = usize> {
+    let those = track.branches.iter().filter(move |branch| match branch.kind {
         Kind::Diverter { onto } | Kind::Pusher { onto, .. } => onto == number,
         Kind::Stopper => false,
-    })
+    });
+    those.map(|branch| branch.part)
 }
 
 /// What is left at the best of the joints of two conveyors.
