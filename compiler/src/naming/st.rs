@@ -1,7 +1,7 @@
 //! Identifiers of Structured Text. Case does not count; no underscore stands at an end or beside another one.
 
 use super::reserved::{is_reserved, keyword_inside};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// Longest identifier; old tools take no longer ones.
@@ -23,7 +23,18 @@ pub struct Scope {
     outer: Vec<Arc<HashSet<String>>>,
     /// In lower case.
     taken: Arc<HashSet<String>>,
+    /// The first number that has not been tried yet: all that were are taken.
+    next: HashMap<Tried, u32>,
     renamed: Vec<Renamed>,
+}
+
+/// Numbers with so many digits, behind the same beginning, before the same suffixes.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Tried {
+    /// In lower case.
+    beginning: String,
+    digits: usize,
+    suffixes: String,
 }
 
 impl Scope {
@@ -69,25 +80,15 @@ impl Scope {
             stem = format!("{}_v", cut(&stem, longest - 2));
             reason = "reserved word";
         }
-        let in_lower_case =
-            |stem: &str| suffixes.iter().map(|suffix| lower(stem, suffix)).collect::<Vec<_>>();
-        let mut found = stem.clone();
-        let mut keys = in_lower_case(&found);
-        for number in 2.. {
-            if keys.iter().all(|key| !self.is_taken(key)) {
-                break;
-            }
-            let tail = format!("_{number}");
-            found = cut(&stem, longest - tail.len()) + &tail;
-            keys = in_lower_case(&found);
+        if !self.is_free(&stem, suffixes) {
+            stem = self.numbered(&stem, suffixes, longest);
             reason = "name already used; case does not count";
         }
         suffixes
             .iter()
-            .zip(keys)
-            .map(|(suffix, key)| {
-                Arc::make_mut(&mut self.taken).insert(key);
-                let name = format!("{found}{suffix}");
+            .map(|suffix| {
+                Arc::make_mut(&mut self.taken).insert(lower(&stem, suffix));
+                let name = format!("{stem}{suffix}");
                 if !reason.is_empty() {
                     self.renamed.push(Renamed {
                         wanted: of_specification(wanted, suffix),
@@ -98,6 +99,35 @@ impl Scope {
                 name
             })
             .collect()
+    }
+
+    fn is_free(&self, stem: &str, suffixes: &[&str]) -> bool {
+        suffixes.iter().all(|suffix| !self.is_taken(&lower(stem, suffix)))
+    }
+
+    /// With the first number behind it that is free.
+    fn numbered(&mut self, stem: &str, suffixes: &[&str], longest: usize) -> String {
+        let mut number = 2;
+        loop {
+            let tail = format!("_{number}");
+            let beginning = cut(stem, longest - tail.len());
+            let tried = Tried {
+                beginning: beginning.to_ascii_lowercase(),
+                digits: tail.len(),
+                suffixes: suffixes.concat(),
+            };
+            let next = self.next.entry(tried).or_insert(number);
+            if *next > number {
+                number = *next;
+                continue;
+            }
+            number += 1;
+            *next = number;
+            let found = beginning + &tail;
+            if self.is_free(&found, suffixes) {
+                return found;
+            }
+        }
     }
 
     /// The identifier of a value as a whole, whose parts have this beginning.
@@ -175,6 +205,21 @@ mod tests {
         assert_eq!(given, ["n_24v_ok", "n_1st", "ok", "n", "n_2"]);
         assert_eq!(scope.take_all("_1", &["_x", "_y"]), ["n_1_x", "n_1_y"]);
         assert_eq!(scope.renamed().last().map(|r| r.reason), Some("no letter at the beginning"));
+    }
+
+    /// Names that begin alike are told apart by numbers, and a number is tried once: 100,000 names in a moment.
+    #[test]
+    fn many_long_names_that_begin_alike_are_different() {
+        let mut scope = Scope::new(&[]);
+        let mut all = HashSet::new();
+        for machine in 0..50_000 {
+            let given =
+                scope.take_all(&format!("packing_hall_robot_cell_number_{machine:06}_at"), &["_x", "_y"]);
+            assert!(given.iter().all(|name| name.len() <= LONGEST));
+            all.extend(given.iter().map(|name| name.to_ascii_lowercase()));
+        }
+        assert_eq!(all.len(), 100_000);
+        assert!(all.contains("packing_hall_robot_cell_50000_x"), "{:?}", all.iter().max());
     }
 
     #[test]
