@@ -26,8 +26,9 @@ pub fn run(options: &GraphOptions) -> Status {
         return Status::Done;
     }
     let files = dot::files(&project);
-    let graph = [options.of.clone(), naming::snake(&options.of)]
-        .iter()
+    let snake = naming::snake(&options.of);
+    let graph = [&options.of, &snake, &format!("{snake}_")]
+        .into_iter()
         .find_map(|name| files.get(&format!("{name}.dot")));
     match graph {
         Some(text) => {

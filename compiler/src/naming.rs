@@ -22,6 +22,12 @@ const PRELUDE: &str = "AsMut AsRef AsyncFn AsyncFnMut AsyncFnOnce Box Clone Copy
     IntoFuture IntoIterator Iterator None Ok Option Ord PartialEq PartialOrd Result Send Sized Some String Sync \
     ToOwned ToString TryFrom TryInto Vec";
 
+/// Names that no file has on Windows, whatever stands behind a point.
+pub const NO_FILES: &[&str] = &[
+    "aux", "con", "nul", "prn", "com1", "com2", "com3", "com4", "com5", "com6", "com7", "com8", "com9",
+    "lpt1", "lpt2", "lpt3", "lpt4", "lpt5", "lpt6", "lpt7", "lpt8", "lpt9",
+];
+
 /// What SDF itself or every written world calls something else.
 const SDF: &[&str] = &["world", "ground_plane", "sun"];
 

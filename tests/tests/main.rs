@@ -40,6 +40,7 @@ mod names;
 mod openplc;
 mod oriented;
 mod over_places;
+mod plan;
 mod plcopen;
 mod postponed;
 mod processes;

@@ -1,6 +1,6 @@
 //! Names of a specification that are also names in generated Rust: every one of them, for everything that has a name.
 
-use autogen::backend::{Files, rust};
+use autogen::backend::{Files, dot, rust};
 use autogen::ir::System;
 use autogen::layout::Panel;
 use autogen::naming::camel;
@@ -195,4 +195,33 @@ fn all_names_of_generated_code_may_be_those_of_a_specification() {
     let crates = ["controllers-0", "adapters-0", "controllers-1", "adapters-1"];
     let crates: Vec<&str> = crates.iter().flat_map(|name| ["-p", name]).collect();
     workspace.cargo(&[&["clippy", "--quiet"], &crates[..], &["--", "-D", "warnings"]].concat());
+}
+
+/// Devices have these names on Windows, whatever ends a name.
+#[test]
+fn no_file_has_the_name_of_a_device() {
+    let names = ["Aux", "Con", "Nul", "Prn", "Com1", "Lpt9"];
+    let robot = |name: &&str| format!(r#"{{"name": "the_{name}", "type": "{name}", "pose": [0, 0, 0]}}"#);
+    let automaton = |name: &&str| {
+        format!(
+            "device d{name} {{ part lamp = button {{}}; in on: bool = lamp.on; }}
+            automaton {name} on d{name} {{ initial -> A {{}} state A {{ when on -> A {{}} }} }}"
+        )
+    };
+    let texts = Texts {
+        layout: format!(r#"{{"robots": [{}]}}"#, names.iter().map(robot).collect::<Vec<_>>().join(", ")),
+        specs: names.iter().map(automaton).collect(),
+        ..Texts::default()
+    };
+    let outcome = texts.compile();
+    let project = outcome.project.expect("a line");
+    let (rust, graphs) = (rust::files(&project.system, &outcome.sources), dot::files(&project));
+    let stems =
+        rust.keys().chain(graphs.keys()).filter_map(|path| path.rsplit('/').next()?.split('.').next());
+    let stems: Vec<&str> = stems.collect();
+    for name in names.map(str::to_ascii_lowercase) {
+        assert!(!stems.contains(&&name[..]), "{name}: {:?}", rust.keys());
+        // A module, a file of its machines and a graph.
+        assert_eq!(stems.iter().filter(|stem| **stem == format!("{name}_")).count(), 3, "{name}: {stems:?}");
+    }
 }

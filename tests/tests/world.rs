@@ -7,11 +7,14 @@ use autogen_tests::sdf::chain::{self, Frame};
 use autogen_tests::sdf::findings;
 use autogen_tests::xml::{self, Element};
 use autogen_tests::{LAYOUTS, Texts, ariac, lathe_on_a_rail, own_line, side_by_side, text};
+use runtime_sim::frame::Frame as Upright;
 use runtime_sim::kinematics::arm::Joints;
 use runtime_sim::kinematics::links::Joint;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::line::{IoDelay, Line, Scenario};
 use runtime_sim::machine::Machine;
+use runtime_sim::part::Primitive;
+use runtime_sim::part::lane::CentreLine;
 use runtime_sim::part::stroke::Stroke;
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::random::Random;
@@ -39,7 +42,7 @@ fn examples() -> Vec<(String, Texts)> {
     let of_paper = LAYOUTS.iter().map(|name| (name.to_string(), ariac(name)));
     let own = ["buffer", "shared_agv"].iter().map(|name| (name.to_string(), own_line(name)));
     let carried = CARRIED.iter().map(|(line, ..)| (line.replace('/', "_"), side_by_side(line)));
-    let others = ["scenes/converge_station", "scenes/branches"];
+    let others = ["scenes/converge_station", "scenes/branches", "scenes/scara", "scenes/packing"];
     let others = others.iter().map(|line| (line.replace('/', "_"), side_by_side(line)));
     of_paper.chain(own).chain([("small".into(), small())]).chain(carried).chain(others).collect()
 }
@@ -123,7 +126,7 @@ fn libsdformat_accepts_the_worlds() {
     if !has_judge() {
         return;
     }
-    for (name, texts) in examples() {
+    for (name, texts) in examples().into_iter().chain([("mixed".into(), mixed())]) {
         assert_eq!(judge(&name, &world(&texts)), "Valid.", "{name}");
     }
     let line = workshop();
@@ -137,7 +140,7 @@ fn libsdformat_accepts_the_worlds() {
 
 #[test]
 fn nothing_is_out_of_place() {
-    for (name, texts) in examples() {
+    for (name, texts) in examples().into_iter().chain([("mixed".into(), mixed())]) {
         assert_eq!(findings(&world(&texts)), [""; 0], "{name}");
     }
     let text = sdf::files("workshop", &workshop()).remove("factory.sdf").expect("the world");
@@ -368,6 +371,106 @@ fn shapes_have_the_sizes_of_the_solids() {
                 assert_same(&got, &solid.pose, &solid.name);
             }
         }
+    }
+}
+
+/// An arm with a door, a disc and a conveyor, vehicles with docks, and names that the world has itself.
+fn mixed() -> Texts {
+    Texts {
+        layout: text("tests/fixtures/world/mixed.json"),
+        specs: vec![text("tests/fixtures/world/mixed.aut")],
+        ..Texts::default()
+    }
+}
+
+/// In the models of its name, and of its name with two underscores: in all of them its bodies and the surfaces of its
+/// conveyors, each once, where the simulator has them at the start.
+#[test]
+fn all_of_a_machine_is_in_the_world_where_it_stands() {
+    let mut counts = [0; 4];
+    for (line, texts) in examples().into_iter().chain([("mixed".into(), mixed())]) {
+        let models = models(&world(&texts));
+        for machine in &texts.project().plant.machines {
+            let [renamed, beside] = ["_", "__"].map(|end| format!("{}{end}", machine.name));
+            let is_its = |model: &&Element| {
+                model.attribute("name").is_some_and(|name| {
+                    [&machine.name, &renamed].iter().any(|own| *own == name) || name.starts_with(&beside)
+                })
+            };
+            let own: Vec<&Element> = models.iter().filter(is_its).collect();
+            let mut expected: Vec<(String, Pose)> = Vec::new();
+            for solid in machine.solids() {
+                let (kind, frame) = match solid.link {
+                    Link::World => (0, Pose::IDENTITY),
+                    Link::Route => (1, machine.start().expect("a vehicle").pose()),
+                    Link::Carriage(part) => {
+                        (2, machine.parts[part].strokes().expect("a stroke").begin().pose())
+                    }
+                    // They are where joints put them.
+                    Link::Joint(_) => continue,
+                };
+                counts[kind] += 1;
+                expected.push((solid.name, frame.then(&solid.pose)));
+            }
+            for part in &machine.parts {
+                let Primitive::Lane(lane) = &part.primitive else { continue };
+                let CentreLine::Line { length, rise: 0.0, .. } = lane.centre_line else { continue };
+                let strokes = lane.on.and_then(|part| machine.parts[part].strokes());
+                let carried = strokes.map_or(Upright::default(), |strokes| strokes.begin());
+                let middle = carried.then(lane.centre_line.frame(length / 2.0)).pose();
+                let below = Pose { position: Point::new(0.0, 0.0, -0.005), ..Pose::IDENTITY };
+                counts[3] += 1;
+                expected.push((part.name.clone(), middle.then(&below)));
+            }
+            for (solid, pose) in expected {
+                let name = format!("{solid}_collision");
+                let found: Vec<_> = own
+                    .iter()
+                    .flat_map(|model| model.all("link").map(move |link| (*model, link)))
+                    .filter_map(|(model, link)| Some((model, link, link.named("collision", &name)?)))
+                    .collect();
+                let [(model, link, collision)] = found[..] else {
+                    panic!("{line}, {}: {} times {name}", machine.name, found.len())
+                };
+                let still = vec![0.0; chain::movable(model).len()];
+                let link = chain::link_at(model, link.attribute("name").expect("a name"), &still);
+                let what = format!("{line}, {}, {solid}", machine.name);
+                assert_same(&link.times(&chain::pose(collision)), &pose, &what);
+            }
+        }
+    }
+    assert!(counts.iter().all(|count| *count > 3), "{counts:?}");
+}
+
+/// What does not move with a joint or a vehicle is fixed.
+#[test]
+fn docks_of_vehicles_stand() {
+    let models = models(&world(&mixed()));
+    let model = |name: &str| models.iter().find(|m| m.attribute("name") == Some(name)).expect("a model");
+    let is_static = |name: &str| model(name).child("static").is_some_and(|text| text.text.trim() == "true");
+    assert_eq!(
+        ["cart", "cart__beside", "cart2", "cart2__beside"].map(is_static),
+        [false, true, false, false]
+    );
+    let joints: Vec<_> =
+        model("cart2__beside").all("joint").map(|joint| joint.attribute("type").unwrap_or("")).collect();
+    assert_eq!(joints, ["fixed", "prismatic"]);
+}
+
+#[test]
+fn the_floor_is_under_everything() {
+    let text = world(&mixed());
+    let floor =
+        models(&text).into_iter().find(|m| m.attribute("name") == Some("ground_plane")).expect("a floor");
+    let size = floor
+        .child("link")
+        .and_then(|link| link.child("visual")?.child("geometry")?.child("plane")?.child("size"));
+    let size = size.and_then(autogen_tests::sdf::numbers).expect("a size");
+    let at = chain::pose(&floor).position;
+    // From the door of the cell to the plate beside the second cart, from the conveyor on the turntable to the track.
+    let ends = [[-1.5 - 5.0, 22.0 + 5.0], [-11.0 - 5.0, 15.0 + 5.0]];
+    for (axis, ends) in ends.iter().enumerate() {
+        assert_close(&[at[axis] - size[axis] / 2.0, at[axis] + size[axis] / 2.0], ends);
     }
 }
 

@@ -17,7 +17,7 @@ pub fn files(project: &Project) -> Files {
     let system = &project.system;
     let mut files = Files::new();
     files.insert(format!("{CONNECTIVITY}.dot"), connectivity(project));
-    let mut names = Scope::new(&[CONNECTIVITY, PLAN]);
+    let mut names = Scope::new(&[&[CONNECTIVITY, PLAN], naming::NO_FILES].concat());
     for automaton in &system.model.automata {
         let name = names.take(naming::snake(&automaton.name));
         files.insert(format!("{name}.dot"), states(automaton));

@@ -1,12 +1,13 @@
 //! Machines from above.
 
+use runtime_sim::frame::Frame;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::axis::Motion;
 use runtime_sim::part::lane::{CentreLine, Lane};
 use runtime_sim::part::place::Place;
-use runtime_sim::part::track::Track;
-use runtime_sim::point::{Axis, Direction, Point};
+use runtime_sim::point::{Axis, Point};
+use runtime_sim::solid::{self, Link};
 
 /// A part of a machine as it is drawn, in the world's x and y.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,28 +28,28 @@ pub enum Shape {
     Polygon(Vec<Point>),
 }
 
-/// The shapes of a machine, each with its class for the drawing's style.
+/// The shapes of a machine as it stands at the start, each with its class for the drawing's style.
 pub fn shapes(machine: &Machine) -> Vec<(Shape, &'static str)> {
-    if machine.lane().is_some() {
-        return machine.lanes().map(|lane| (of_lane(lane), "belt")).collect();
-    }
+    let mut shapes: Vec<_> = machine.lanes().map(|lane| (of_lane(machine, lane), "belt")).collect();
     if machine.chain().is_some() {
-        return of_axes(machine);
+        shapes.extend(of_axes(machine));
     }
-    if let Some(track) = machine.track() {
-        return of_track(machine, track);
+    if !shapes.is_empty() {
+        return shapes;
     }
-    let Some(place) = machine.places().next() else { return of_bodies(machine) };
-    let [start, further @ ..] = machine.stops() else {
-        return vec![(of_place(place, place.at), "station")];
-    };
-    let at = |stop: &Point| (of_place(place, *stop), Shape::Line { from: *start, to: *stop });
-    let stops = further.iter().map(at).flat_map(|(place, path)| [(place, "stop"), (path, "path")]);
-    stops.chain([(of_place(place, *start), "vehicle")]).collect()
+    if let Some(start) = machine.start() {
+        return of_vehicle(machine, start);
+    }
+    match machine.places().next() {
+        Some(place) => vec![(of_place(place, place.at), "station")],
+        None => of_bodies(machine, Link::World, Frame::default(), "station").collect(),
+    }
 }
 
-fn of_lane(lane: &Lane) -> Shape {
-    match lane.centre_line {
+fn of_lane(machine: &Machine, lane: &Lane) -> Shape {
+    let strokes = lane.on.and_then(|part| machine.parts[part].strokes());
+    let centre_line = strokes.map_or(lane.centre_line, |strokes| lane.centre_line.moved(strokes.begin()));
+    match centre_line {
         CentreLine::Axis { along, range: [low, high], surface } => {
             let (middle, length) = ((low + high) / 2.0, high - low);
             let (centre, size) = match along {
@@ -57,19 +58,19 @@ fn of_lane(lane: &Lane) -> Shape {
             };
             Shape::Rectangle { centre, size }
         }
-        CentreLine::Line { .. } => Shape::Polygon(band(lane, 1)),
-        CentreLine::Arc { .. } => Shape::Polygon(band(lane, ARC_SIDES)),
+        CentreLine::Line { .. } => Shape::Polygon(band(&centre_line, lane.outline, 1)),
+        CentreLine::Arc { .. } => Shape::Polygon(band(&centre_line, lane.outline, ARC_SIDES)),
     }
 }
 
 /// Straight sides in which an arc is drawn.
 const ARC_SIDES: usize = 24;
 
-/// Both sides of a lane, one after another.
-fn band(lane: &Lane, pieces: usize) -> Vec<Point> {
+/// Both sides of a lane of this width, one after another.
+fn band(centre_line: &CentreLine, width: f64, pieces: usize) -> Vec<Point> {
     let side = |piece: usize, across: f64| {
-        let place = lane.centre_line.end() + lane.centre_line.length() * piece as f64 / pieces as f64;
-        lane.centre_line.point(place, across * lane.outline / 2.0)
+        let place = centre_line.end() + centre_line.length() * piece as f64 / pieces as f64;
+        centre_line.point(place, across * width / 2.0)
     };
     let there = (0..=pieces).map(|piece| side(piece, 1.0));
     there.chain((0..=pieces).rev().map(|piece| side(piece, -1.0))).collect()
@@ -98,20 +99,13 @@ fn of_axes(machine: &Machine) -> Vec<(Shape, &'static str)> {
             _ => vec![(Shape::Polygon(robot.ground()), "range")],
         };
     }
-    if let Some([from, to]) = machine.riding() {
+    if let Some([from, to]) = rail(machine) {
         let centre = (from + to).scaled(0.5);
         return vec![(Shape::Line { from, to }, "rail"), (Shape::Circle { centre, radius: 0.22 }, "arm")];
     }
     let axes = machine.axes();
     let pose = machine.pose;
     match axes.iter().map(|axis| axis.motion).collect::<Vec<_>>()[..] {
-        [Motion::Slides { along, range: [low, high] }] => {
-            let end = |at: f64| pose.with_coordinate(along, at);
-            vec![
-                (Shape::Line { from: end(low), to: end(high) }, "rail"),
-                (Shape::Circle { centre: end((low + high) / 2.0), radius: 0.22 }, "arm"),
-            ]
-        }
         [Motion::Slides { range: x, .. }, Motion::Slides { range: y, .. }, ..] => {
             let centre = Point::new((x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0, 0.0);
             vec![
@@ -123,29 +117,72 @@ fn of_axes(machine: &Machine) -> Vec<(Shape, &'static str)> {
     }
 }
 
-/// The track of a vehicle, its places, and the vehicle where it is at the start.
-fn of_track(machine: &Machine, track: &Track) -> Vec<(Shape, &'static str)> {
-    use runtime_sim::solid::Shape as Solid;
-    let sides = track.sides().into_iter().map(|[from, to]| (Shape::Line { from, to }, "path"));
-    let goals = track.goals().into_iter();
-    let places = goals.map(|centre| (Shape::Circle { centre, radius: 0.06 }, "stop"));
-    let start = track.begin().pose();
-    let bodies = machine.solids().into_iter().filter_map(|solid| match solid.shape {
-        Solid::Box { size } => Some((of_box(&start.then(&solid.pose), size), "vehicle")),
-        Solid::Capsule { .. } => None,
-    });
-    sides.chain(places).chain(bodies).collect()
+/// Both ends of the rail of an arm, as far as its base goes.
+pub fn rail(machine: &Machine) -> Option<[Point; 2]> {
+    let along_axis = || {
+        let [axis] = machine.axes()[..] else { return None };
+        let Motion::Slides { along, range } = axis.motion else { return None };
+        let line = axis.at().unwrap_or(machine.pose);
+        Some(range.map(|end| line.with_coordinate(along, end)))
+    };
+    machine.riding().or_else(along_axis)
 }
 
-/// Boxes that stand.
-fn of_bodies(machine: &Machine) -> Vec<(Shape, &'static str)> {
-    use runtime_sim::solid::{Link, Shape as Solid};
-    let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::World);
-    let boxes = solids.filter_map(|solid| match solid.shape {
-        Solid::Box { size } => Some((of_box(&solid.pose, size), "station")),
-        Solid::Capsule { .. } => None,
-    });
-    boxes.collect()
+/// Where a vehicle goes and stops, the vehicle where it is at the start, and what stands beside it.
+fn of_vehicle(machine: &Machine, start: Frame) -> Vec<(Shape, &'static str)> {
+    let on_route = machine.places().next().filter(|_| machine.track().is_none());
+    let stop = |at: &Point| match on_route {
+        Some(place) => of_place(place, *at),
+        None => Shape::Circle { centre: *at, radius: 0.06 },
+    };
+    let path = |[from, to]: [Point; 2]| (Shape::Line { from, to }, "path");
+    let mut shapes: Vec<_> = match (machine.track(), machine.stops()) {
+        (Some(track), _) => {
+            let stops = track.goals().into_iter().map(|at| (stop(&at), "stop"));
+            track.sides().into_iter().map(path).chain(stops).collect()
+        }
+        (None, [first, further @ ..]) => {
+            further.iter().flat_map(|at| [(stop(at), "stop"), path([*first, *at])]).collect()
+        }
+        (None, []) => Vec::new(),
+    };
+    let vehicle: Vec<_> = match on_route {
+        Some(place) => vec![(of_place(place, start.position), "vehicle")],
+        None => of_bodies(machine, Link::Route, start, "vehicle").collect(),
+    };
+    shapes.extend(of_bodies(machine, Link::World, Frame::default(), "station"));
+    shapes.extend(vehicle);
+    shapes
+}
+
+/// The bodies on a link, which is there.
+fn of_bodies(
+    machine: &Machine,
+    link: Link,
+    at: Frame,
+    class: &'static str,
+) -> impl Iterator<Item = (Shape, &'static str)> {
+    let solids = machine.solids().into_iter().filter(move |solid| solid.link == link);
+    solids.map(move |solid| {
+        let pose = at.pose().then(&solid.pose);
+        let shape = match solid.shape {
+            solid::Shape::Box { size } => of_box(&pose, size),
+            solid::Shape::Capsule { length, radius } => of_capsule(&pose, length, radius),
+        };
+        (shape, class)
+    })
+}
+
+/// As long and as wide as it is from above.
+fn of_capsule(pose: &Pose, length: f64, radius: f64) -> Shape {
+    let half = Point { z: 0.0, ..pose.axis(2).scaled(length / 2.0) };
+    if half.length() < radius {
+        return Shape::Circle { centre: pose.position, radius: radius + half.length() };
+    }
+    let ahead = half.scaled((half.length() + radius) / half.length());
+    let aside = Point::new(-half.y, half.x, 0.0).scaled(radius / half.length());
+    let corners = [ahead - aside, ahead + aside, aside - ahead, Point::default() - ahead - aside];
+    Shape::Polygon(corners.map(|corner| pose.position + corner).to_vec())
 }
 
 /// A box that stands upright.
@@ -180,18 +217,11 @@ pub fn label(machine: &Machine) -> Point {
         let least = |value: fn(&Point) -> f64| ground.iter().map(value).fold(f64::INFINITY, f64::min);
         return Point::new(least(|point| point.x), least(|point| point.y) - 0.1, 0.0);
     }
-    if let Some([from, to]) = machine.riding() {
+    if let Some([from, to]) = rail(machine) {
         return Point::new(from.x.min(to.x), from.y.min(to.y) - 0.35, 0.0);
     }
-    match (machine.axes().first().map(|axis| axis.motion), machine.axes().len()) {
-        (Some(Motion::Slides { along: Direction::X, range }), 1) => {
-            return Point::new(range[0], pose.y - 0.35, 0.0);
-        }
-        (Some(Motion::Slides { along: Direction::Y, range }), 1) => {
-            return Point::new(pose.x, range[0] - 0.35, 0.0);
-        }
-        (Some(_), _) => return pose + Point::new(0.0, 0.5, 0.0),
-        (None, _) => {}
+    if !machine.axes().is_empty() {
+        return pose + Point::new(0.0, 0.5, 0.0);
     }
     let shape = machine.places().next().map(|place| of_place(place, pose));
     match shape {

@@ -7,7 +7,6 @@ use crate::connect::Edge;
 use arrow::Arrow;
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
-use runtime_sim::part::axis::Motion;
 use runtime_sim::part::lane::{CentreLine, Lane};
 use runtime_sim::point::Point;
 use std::fmt::Write;
@@ -53,15 +52,10 @@ fn meeting(machine: &Machine, other: &Machine, leaves: bool) -> Point {
     if let [start, first, ..] = machine.visited()[..] {
         return if leaves { first } else { start };
     }
-    if let Some([from, to]) = machine.riding() {
+    if let Some([from, to]) = footprint::rail(machine) {
         let rail = to - from;
-        let part = (other.pose - from).dot(rail) / rail.dot(rail);
+        let part = (other.pose - from).dot(rail) / rail.dot(rail).max(f64::MIN_POSITIVE);
         return from + rail.scaled(part.clamp(0.0, 1.0));
-    }
-    if let [axis] = machine.axes()[..]
-        && let Motion::Slides { along, range: [low, high] } = axis.motion
-    {
-        return machine.pose.with_coordinate(along, other.pose.coordinate(along).clamp(low, high));
     }
     if let Some(lane) = machine.lane().filter(|lane| !matches!(lane.centre_line, CentreLine::Axis { .. })) {
         return nearest(lane, other.pose);

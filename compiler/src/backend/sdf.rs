@@ -5,9 +5,11 @@
 //! opens with every joint within its limits. Shapes are those of [`runtime_sim::solid`].
 
 mod carriage;
+mod floor;
 mod inertia;
 mod lane;
 mod model;
+mod names;
 mod number;
 mod robot;
 mod sensor;
@@ -16,20 +18,17 @@ mod shape;
 use super::{Files, Part, Sink, Text, part};
 use crate::naming;
 use askama::Template;
+use floor::Floor;
 use model::Model;
-use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::line::{Line, Obstacle};
 use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
-use runtime_sim::point::Point;
-use runtime_sim::solid;
+use runtime_sim::solid::{Link, Solid};
+use shape::Surface;
 use std::fmt::Formatter;
 
 /// Ambient and diffuse colour of an obstacle, and of a machine of no material.
 const OBSTACLE: &str = "0.75 0.75 0.75 1";
-
-/// Floor beyond the outermost machine, m.
-const BORDER: f64 = 5.0;
 
 #[derive(Template)]
 #[template(path = "sdf/world.sdf")]
@@ -38,11 +37,6 @@ struct World<'a> {
     floor: Floor,
     /// Each on lines of its own.
     models: Part<'a>,
-}
-
-struct Floor {
-    pose: String,
-    size: String,
 }
 
 /// The files of the folder `world/`; `name` is the layout's.
@@ -59,74 +53,57 @@ pub fn write(name: &str, line: &Line, files: &mut dyn Sink) {
         let mut models = machines().chain(line.obstacles.iter().filter_map(obstacle));
         models.try_for_each(|model| write!(f, "\n{model}"))
     });
-    let world = World { name: naming::sdf(name), floor: floor(line), models };
+    let world = World { name: naming::sdf(name), floor: Floor::of(line), models };
     files.file("factory.sdf", &Text(|f: &mut Formatter| writeln!(f, "{world}")));
 }
 
-/// A machine, and the cameras over its stops.
+/// A machine in a model of its name; beside a vehicle what stands or moves without it, and the cameras of a machine that
+/// moves.
 fn models(machine: &Machine) -> impl Iterator<Item = Model> {
-    let own = self::machine(naming::sdf(&machine.name), machine);
-    [Some(own), sensor::over_stops(machine)].into_iter().flatten()
-}
-
-fn machine(name: String, machine: &Machine) -> Model {
-    if let Some(arm) = machine.arm() {
-        return robot::model(name, machine, &arm);
-    }
+    let name = naming::sdf(&machine.name);
     let material = machine.parts.iter().find_map(|part| match &part.primitive {
         Primitive::Material(material) => Some(material),
         _ => None,
     });
     let colour = material.map_or(OBSTACLE.to_string(), |m| format!("{} 1", number::list(&m.colour)));
-    let mut solids = machine.solids();
-    solids.extend(lane::surfaces(machine));
-    let is_carried = |solid: &solid::Solid| matches!(solid.link, solid::Link::Carriage(_));
-    let friction = material.and_then(|material| material.friction);
-    let mut model = match (machine.route(), machine.track()) {
-        (Some(route), _) => Model::vehicle(name, at(machine.pose), &solids, route.mass, &colour),
-        (_, Some(track)) => Model::vehicle(name, track.begin().pose(), &solids, track.mass, &colour),
-        (None, None) if solids.iter().any(is_carried) => {
-            carriage::model(name, machine, &solids, friction, &colour)
-        }
-        (None, None) => Model::standing(name, machine.pose, &solids, friction, &colour),
+    let surface = Surface { colour: &colour, friction: material.and_then(|material| material.friction) };
+    let lanes = lane::surfaces(machine);
+    if let Some(arm) = machine.arm() {
+        return [Some(robot::model(name, machine, &arm, &lanes, surface)), None, sensor::beside(machine)]
+            .into_iter()
+            .flatten();
+    }
+    let (carried, others): (Vec<Solid>, Vec<Solid>) =
+        machine.solids().into_iter().chain(lanes).partition(|solid| solid.link == Link::Route);
+    let mass = machine.route().map(|route| route.mass).or(machine.track().map(|track| track.mass));
+    let Some((start, mass)) = machine.start().zip(mass) else {
+        let model = without_vehicle(name, machine, &others, surface);
+        let cameras = if model.is_static { None } else { sensor::beside(machine) };
+        return [Some(model), None, cameras].into_iter().flatten();
     };
-    model.links.extend(sensor::cameras_over(machine));
-    model
+    // Names of a layout have no two underscores in a row.
+    let beside =
+        (!others.is_empty()).then(|| without_vehicle(format!("{name}__beside"), machine, &others, surface));
+    [Some(Model::vehicle(name, start.pose(), &carried, mass, &colour)), beside, sensor::beside(machine)]
+        .into_iter()
+        .flatten()
 }
 
-fn at(position: Point) -> Pose {
-    Pose { position, ..Pose::IDENTITY }
+/// What stands, with its cameras, and what is on cylinders and positioners.
+fn without_vehicle(name: String, machine: &Machine, solids: &[Solid], surface: Surface) -> Model {
+    if solids.iter().any(|solid| matches!(solid.link, Link::Carriage(_))) {
+        return carriage::model(name, machine, solids, surface);
+    }
+    let mut model = Model::standing(name, machine.pose, solids, surface);
+    if machine.start().is_none() {
+        model.links.extend(sensor::cameras_over(machine));
+    }
+    model
 }
 
 /// None for an obstacle that takes no room.
 fn obstacle(obstacle: &Obstacle) -> Option<Model> {
     let solid = obstacle.solid()?;
-    Some(Model::standing(naming::sdf(&obstacle.name), obstacle.pose, &[solid], None, OBSTACLE))
-}
-
-/// A floor under every machine and every obstacle.
-fn floor(line: &Line) -> Floor {
-    let machines = line.machines.iter().flat_map(places);
-    let places: Vec<Point> = machines.chain(line.obstacles.iter().map(|o| o.pose)).collect();
-    let extent = |coordinate: fn(&Point) -> f64| {
-        let values = places.iter().map(coordinate);
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-        if low > high { (0.0, 2.0 * BORDER) } else { ((low + high) / 2.0, high - low + 2.0 * BORDER) }
-    };
-    let ((x, length), (y, width)) = (extent(|p| p.x), extent(|p| p.y));
-    let middle = Pose { position: Point::new(x, y, 0.0), ..Pose::IDENTITY };
-    Floor { pose: number::pose(&middle), size: number::list(&[length, width]) }
-}
-
-/// The outermost places of a machine.
-fn places(machine: &Machine) -> Vec<Point> {
-    let ends = |solid: &solid::Solid| match solid.shape {
-        solid::Shape::Box { size } if solid.link == solid::Link::World => {
-            let half = Point::new(size.x / 2.0, size.y / 2.0, 0.0);
-            vec![solid.pose.position - half, solid.pose.position + half]
-        }
-        _ => Vec::new(),
-    };
-    let turning = machine.turning_points();
-    if turning.is_empty() { machine.solids().iter().flat_map(ends).collect() } else { turning }
+    let surface = Surface { colour: OBSTACLE, friction: None };
+    Some(Model::standing(naming::sdf(&obstacle.name), obstacle.pose, &[solid], surface))
 }

@@ -1,7 +1,7 @@
 //! The identifiers of one system in Rust.
 
 use crate::ir::{Automaton, Clause, Enum, Interface, Relation, State, System, Transition};
-use crate::naming::{Scope, camel, screaming, snake};
+use crate::naming::{NO_FILES, Scope, camel, screaming, snake};
 
 /// Types that generated modules have beside those of the specification.
 const TYPES: &[&str] = &[
@@ -51,18 +51,14 @@ const TYPES: &[&str] = &[
     "Memory",
     "Deployed",
 ];
-/// Modules and crates, primitive types, and names that a file cannot have everywhere.
+/// Modules and crates, and primitive types.
 const MODULES: &[&str] = &[
     "alarm",
-    "aux",
     "bool",
-    "con",
     "f64",
     "i32",
     "lib",
     "main",
-    "nul",
-    "prn",
     "retained",
     "runtime_sim",
     "str",
@@ -201,7 +197,7 @@ pub fn names(system: &System) -> Names {
     let relation =
         |r: &Relation| format!("{}_reaches_{}", interfaces[r.from.0].field, interfaces[r.to.0].field);
     let relations = model.relations.iter().map(|r| fields.take(relation(r))).collect();
-    let mut modules = Scope::rust(MODULES);
+    let mut modules = Scope::rust(&[MODULES, NO_FILES].concat());
     let automata =
         model.automata.iter().map(|a| automaton_names(a, &interfaces, &mut types, &mut modules)).collect();
     let mut robots = Scope::rust(&[]);

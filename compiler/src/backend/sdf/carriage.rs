@@ -1,9 +1,10 @@
-//! Machines with something on cylinders or positioners: a joint for each of these.
+//! Cylinders and positioners: a joint for each that carries something.
 
 use super::inertia::inertial;
 use super::model::{Axis, Joint, Link, Model};
+use super::names::Names;
 use super::number;
-use super::shape::shapes;
+use super::shape::{Surface, shapes};
 use runtime_sim::frame::Frame;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::machine::Machine;
@@ -17,32 +18,17 @@ const MASS: f64 = 10.0;
 /// N or N m.
 const EFFORT: f64 = 1000.0;
 
-/// The model with each cylinder and positioner where it is at the start; the solids are in the world's frame at its inner end.
-pub fn model(
-    name: String,
-    machine: &Machine,
-    solids: &[Solid],
-    friction: Option<f64>,
-    colour: &str,
-) -> Model {
-    let mut model = Model { is_static: false, ..Model::of_links(name, Point::default(), Vec::new()) };
-    let on =
-        |link: solid::Link| -> Vec<Solid> { solids.iter().filter(|s| s.link == link).cloned().collect() };
-    let link = |name: String, frame: Frame, solids: &[Solid]| Link {
-        name,
-        relative_to: None,
-        pose: number::pose(&frame.pose()),
-        is_weightless: false,
-        inertial: Some(inertial(MASS, solids)),
-        shapes: solids.iter().flat_map(|s| shapes(s, friction, colour)).collect(),
-        sensor: None,
-    };
-    let base = on(solid::Link::World);
+/// A machine with what stands of it and all its carriages; the solids are in the frame of the world, those of a carriage as it
+/// is at its inner end.
+pub fn model(name: String, machine: &Machine, solids: &[Solid], surface: Surface) -> Model {
+    let mut model = Model::jointed(name);
+    let mut names = Names::default();
+    let stands: Vec<Solid> = on(solids, solid::Link::World);
     let mut parent = "world".to_string();
-    if !base.is_empty() {
-        parent = "base_link".into();
+    if !stands.is_empty() {
+        parent = names.take("base_link");
         model.joints.push(Joint {
-            name: "base_joint".into(),
+            name: names.take("base_joint"),
             kind: "fixed",
             parent: "world".into(),
             child: parent.clone(),
@@ -50,15 +36,45 @@ pub fn model(
             pose: number::pose(&Pose::IDENTITY),
             axis: None,
         });
-        model.links.push(link(parent.clone(), Frame::default(), &base));
+        model.links.push(link(parent.clone(), Frame::default(), &stands, surface));
     }
+    add(&mut model, &mut names, &parent, machine, solids, surface);
+    model
+}
+
+fn on(solids: &[Solid], link: solid::Link) -> Vec<Solid> {
+    solids.iter().filter(|solid| solid.link == link).cloned().collect()
+}
+
+fn link(name: String, frame: Frame, solids: &[Solid], surface: Surface) -> Link {
+    Link {
+        name,
+        relative_to: None,
+        pose: number::pose(&frame.pose()),
+        is_weightless: false,
+        inertial: Some(inertial(MASS, solids)),
+        shapes: shapes(solids.iter().map(|solid| (solid, surface))),
+        sensor: None,
+    }
+}
+
+/// Adds each cylinder and positioner that carries some of these solids, where it is at the start, behind a link of a model
+/// in the frame of the world.
+pub fn add(
+    model: &mut Model,
+    names: &mut Names,
+    parent: &str,
+    machine: &Machine,
+    solids: &[Solid],
+    surface: Surface,
+) {
     for (number, part) in machine.parts.iter().enumerate() {
-        let carried = on(solid::Link::Carriage(number));
+        let carried = on(solids, solid::Link::Carriage(number));
         let Some(strokes) = part.strokes().filter(|_| !carried.is_empty()) else { continue };
         let Some(stroke) = strokes.stroke else { continue };
         let begins = strokes.stops.get(strokes.begins).copied().unwrap_or_default();
-        let child = format!("{}_link", part.name);
-        let carries = link(child.clone(), stroke.frame(begins), &carried);
+        let child = names.take(&format!("{}_link", part.name));
+        let carries = link(child.clone(), stroke.frame(begins), &carried, surface);
         let (kind, pose, xyz, length) = match stroke {
             Stroke::Slides(far) => {
                 ("prismatic", Point::default(), far.scaled(1.0 / far.length()), far.length())
@@ -68,9 +84,9 @@ pub fn model(
             }
         };
         model.joints.push(Joint {
-            name: format!("{}_joint", part.name),
+            name: names.take(&format!("{}_joint", part.name)),
             kind,
-            parent: parent.clone(),
+            parent: parent.to_owned(),
             relative_to: child.clone(),
             child,
             pose: number::pose(&Pose { position: pose, ..Pose::IDENTITY }),
@@ -86,7 +102,6 @@ pub fn model(
         });
         model.links.push(carries);
     }
-    model
 }
 
 /// Parts of the stroke a second, at most.

@@ -2,7 +2,7 @@
 
 use super::inertia::{Inertial, inertial};
 use super::number;
-use super::shape::{Shape, shapes};
+use super::shape::{Shape, Surface, shapes};
 use askama::Template;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::point::Point;
@@ -68,28 +68,28 @@ pub struct Axis {
 
 impl Model {
     /// Something that does not move. The solids are in the world's frame, the model stands at `pose`.
-    pub fn standing(
-        name: String,
-        pose: Point,
-        solids: &[Solid],
-        friction: Option<f64>,
-        colour: &str,
-    ) -> Self {
+    pub fn standing(name: String, pose: Point, solids: &[Solid], surface: Surface) -> Self {
         let from_pose = |solid: &Solid| {
             let mut solid = solid.clone();
             solid.pose.position = solid.pose.position - pose;
-            shapes(&solid, friction, colour)
+            solid
         };
+        let solids: Vec<Solid> = solids.iter().map(from_pose).collect();
         let link = Link {
             name: "link".into(),
             relative_to: None,
             pose: number::pose(&Pose::IDENTITY),
             is_weightless: false,
             inertial: None,
-            shapes: solids.iter().flat_map(from_pose).collect(),
+            shapes: shapes(solids.iter().map(|solid| (solid, surface))),
             sensor: None,
         };
         Self::of_links(name, pose, vec![link])
+    }
+
+    /// Something that moves by joints, in the frame of the world. Nothing of it is there yet.
+    pub fn jointed(name: String) -> Self {
+        Self { is_static: false, ..Self::of_links(name, Point::default(), Vec::new()) }
     }
 
     /// A static model at `pose`.
@@ -106,13 +106,14 @@ impl Model {
 
     /// A vehicle of so many kg at its start, free to be moved.
     pub fn vehicle(name: String, pose: Pose, solids: &[Solid], mass: f64, colour: &str) -> Self {
+        let surface = Surface { colour, friction: None };
         let link = Link {
             name: "link".into(),
             relative_to: None,
             pose: number::pose(&Pose::IDENTITY),
             is_weightless: false,
             inertial: Some(inertial(mass, solids)),
-            shapes: solids.iter().flat_map(|s| shapes(s, None, colour)).collect(),
+            shapes: shapes(solids.iter().map(|solid| (solid, surface))),
             sensor: None,
         };
         Self {

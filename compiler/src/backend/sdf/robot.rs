@@ -1,9 +1,11 @@
 //! Robots: a fixed rail, and a link behind each joint of [`runtime_sim::kinematics`], all in the world's frame.
 
+use super::carriage;
 use super::inertia::inertial;
 use super::model::{self, Joint, Link, Model};
+use super::names::Names;
 use super::number;
-use super::shape::shapes;
+use super::shape::{Surface, shapes};
 use runtime_sim::kinematics::arm::{Arm, Joints};
 use runtime_sim::kinematics::links;
 use runtime_sim::kinematics::pose::Pose;
@@ -88,8 +90,9 @@ fn drives(machine: &Machine, kinematics: &Arm) -> Vec<Drive> {
     drives
 }
 
-/// The model of a robot, its rails at the middle of their ranges and its arm stretched, all angles 0.
-pub fn model(name: String, machine: &Machine, kinematics: &Arm) -> Model {
+/// The model of a robot, its rails at the middle of their ranges and its arm stretched, all angles 0; with what else the
+/// machine has: the surfaces of its conveyors, and what is on its cylinders and positioners.
+pub fn model(name: String, machine: &Machine, kinematics: &Arm, lanes: &[Solid], surface: Surface) -> Model {
     let drives = drives(machine, kinematics);
     let carriers = machine.axes().len();
     let zero: Vec<f64> = drives.iter().map(|drive| drive.middle()).collect();
@@ -100,10 +103,14 @@ pub fn model(name: String, machine: &Machine, kinematics: &Arm) -> Model {
         solids.iter().filter(|s| s.link == link && !s.grips).cloned().collect()
     };
 
-    let mut model = Model { is_static: false, ..Model::of_links(name, Point::default(), Vec::new()) };
+    let mut model = Model::jointed(name);
+    let mut names = Names::default();
     let rails = of(solid::Link::World);
-    let rail = link("rail".into(), &Pose::IDENTITY, rail_mass(&rails, machine), &rails, RAIL);
-    model.joints.push(fixed("rail_mount_joint", "world", &rail.name));
+    let mut rail = link(names.take("rail_link"), &Pose::IDENTITY, rail_mass(&rails, machine), &rails, RAIL);
+    let standing_lanes = lanes.iter().filter(|lane| lane.link == solid::Link::World);
+    let stands = rails.iter().map(|rail| (rail, of_colour(RAIL)));
+    rail.shapes = shapes(stands.chain(standing_lanes.map(|lane| (lane, surface))));
+    model.joints.push(fixed(names.take("rail_mount_joint"), "world", &rail.name));
     model.links.push(rail);
     let mut before = Pose::IDENTITY;
     for (i, (drive, frame)) in drives.iter().zip(frames.iter()).enumerate() {
@@ -113,7 +120,7 @@ pub fn model(name: String, machine: &Machine, kinematics: &Arm) -> Model {
             relative_to: Some(parent.clone()),
             is_weightless: i >= carriers,
             ..link(
-                drive.link.clone(),
+                names.take(&format!("{}_link", drive.link)),
                 &frame.seen_from(&before),
                 drive.mass,
                 &of(solid::Link::Joint(i)),
@@ -122,7 +129,7 @@ pub fn model(name: String, machine: &Machine, kinematics: &Arm) -> Model {
         };
         let joint_frame = drive.frame(&before, frame);
         model.joints.push(Joint {
-            name: format!("{}_joint", drive.joint),
+            name: names.take(&format!("{}_joint", drive.joint)),
             kind: drive.kind(),
             child: link.name.clone(),
             relative_to: parent.clone(),
@@ -133,40 +140,47 @@ pub fn model(name: String, machine: &Machine, kinematics: &Arm) -> Model {
         model.links.push(link);
         before = *frame;
     }
-    gripper(&mut model, &solids);
+    gripper(&mut model, &mut names, &solids);
+    let carried: Vec<Solid> = solids.iter().chain(lanes).cloned().collect();
+    let base = model.links[0].name.clone();
+    carriage::add(&mut model, &mut names, &base, machine, &carried, surface);
     model
 }
 
 /// The gripper is a link of its own, which simulators attach parts to.
-fn gripper(model: &mut Model, solids: &[Solid]) {
+fn gripper(model: &mut Model, names: &mut Names, solids: &[Solid]) {
     let Some(wrist) = model.links.last().map(|link| link.name.clone()) else { return };
     let solids: Vec<Solid> = solids.iter().filter(|s| s.grips).cloned().collect();
     let gripper = Link {
         relative_to: Some(wrist.clone()),
         is_weightless: true,
-        ..link("vacuum_gripper".into(), &Pose::IDENTITY, GRIPPER_MASS, &solids, GRIPPER_COLOUR)
+        ..link(names.take("vacuum_gripper_link"), &Pose::IDENTITY, GRIPPER_MASS, &solids, GRIPPER_COLOUR)
     };
-    model.joints.push(fixed("vacuum_gripper_joint", &wrist, &gripper.name));
+    model.joints.push(fixed(names.take("vacuum_gripper_joint"), &wrist, &gripper.name));
     model.tool = Some(gripper.name.clone());
     model.links.push(gripper);
 }
 
 fn link(name: String, pose: &Pose, mass: f64, solids: &[Solid], colour: &'static str) -> Link {
     Link {
-        name: format!("{name}_link"),
+        name,
         relative_to: None,
         pose: number::pose(pose),
         is_weightless: false,
         inertial: Some(inertial(mass, solids)),
-        shapes: solids.iter().flat_map(|s| shapes(s, None, colour)).collect(),
+        shapes: shapes(solids.iter().map(|solid| (solid, of_colour(colour)))),
         sensor: None,
     }
 }
 
+fn of_colour(colour: &str) -> Surface<'_> {
+    Surface { colour, friction: None }
+}
+
 /// At the origin of its child.
-fn fixed(name: &str, parent: &str, child: &str) -> Joint {
+fn fixed(name: String, parent: &str, child: &str) -> Joint {
     Joint {
-        name: name.into(),
+        name,
         kind: "fixed",
         parent: parent.into(),
         child: child.into(),

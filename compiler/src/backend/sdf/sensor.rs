@@ -20,28 +20,36 @@ const HORIZONTAL_FOV: f64 = 1.5;
 const BODY: f64 = 0.05;
 const COLOUR: &str = "0.1 0.1 0.1 1";
 
-/// The cameras that stand with the machine, in the frame of its model.
+/// The cameras of a machine that stands, in the frame of its model.
 pub fn cameras_over(machine: &Machine) -> Vec<Link> {
-    let standing = cameras(machine).filter(|camera| camera.route.is_none());
-    let places: Vec<(Point, f64)> =
-        standing.flat_map(|camera| camera.at.iter().map(|at| (*at, camera.yaw))).collect();
+    let places: Vec<Place> = standing(machine).collect();
     let name = |i: usize| if places.len() == 1 { "camera".to_string() } else { format!("camera_{i}") };
-    places.iter().enumerate().map(|(i, (at, yaw))| link(name(i), *at, *yaw)).collect()
+    places.iter().enumerate().map(|(i, place)| link(name(i), place)).collect()
 }
 
-/// A model with a camera over each stop of a vehicle: it does not move with the vehicle.
-pub fn over_stops(machine: &Machine) -> Option<Model> {
+/// A model with the cameras of a machine that moves: over each stop of a vehicle, and where others stand. None of them moves.
+pub fn beside(machine: &Machine) -> Option<Model> {
     let start = machine.pose;
     let over = cameras(machine).filter(|camera| camera.route.is_some());
-    let links: Vec<Link> = over
-        .flat_map(|camera| {
-            machine.stops().iter().zip(&camera.at).map(|(stop, at)| (*stop - start + *at, camera.yaw))
-        })
-        .enumerate()
-        .map(|(i, (at, yaw))| link(format!("camera_{i}"), at, yaw))
-        .collect();
+    let over = over.flat_map(|camera| {
+        let stops = machine.stops().iter().zip(&camera.at);
+        stops.map(move |(stop, at)| Place { at: *stop - start + *at, yaw: camera.yaw })
+    });
+    let places = over.chain(standing(machine));
+    let links: Vec<Link> = places.enumerate().map(|(i, place)| link(format!("camera_{i}"), &place)).collect();
     // Names of a layout have no two underscores in a row.
     (!links.is_empty()).then(|| Model::of_links(format!("{}__cameras", machine.name), start, links))
+}
+
+/// Of a camera, from the pose of its machine.
+struct Place {
+    at: Point,
+    yaw: f64,
+}
+
+fn standing(machine: &Machine) -> impl Iterator<Item = Place> {
+    let standing = cameras(machine).filter(|camera| camera.route.is_none());
+    standing.flat_map(|camera| camera.at.iter().map(|at| Place { at: *at, yaw: camera.yaw }))
 }
 
 fn cameras(machine: &Machine) -> impl Iterator<Item = &part::camera::Camera> {
@@ -52,12 +60,11 @@ fn cameras(machine: &Machine) -> impl Iterator<Item = &part::camera::Camera> {
 }
 
 /// A camera that looks straight down, the longer side of its field along y before it is turned by `yaw`.
-fn link(name: String, at: Point, yaw: f64) -> Link {
-    let Point { x, y, z } = at;
+fn link(name: String, Place { at: Point { x, y, z }, yaw }: &Place) -> Link {
     Link {
         name,
         relative_to: None,
-        pose: number::list(&[x, y, z, PI, FRAC_PI_2, yaw]),
+        pose: number::list(&[*x, *y, *z, PI, FRAC_PI_2, *yaw]),
         is_weightless: false,
         inertial: None,
         shapes: vec![marker("body", BODY, COLOUR)],

@@ -1,5 +1,6 @@
 //! Solids as shapes of SDF 1.7, which has no capsule: a cylinder with a ball on either end takes the same room.
 
+use super::names::Names;
 use super::number;
 use askama::Template;
 use runtime_sim::kinematics::pose::Pose;
@@ -22,17 +23,32 @@ pub struct Contact {
     pub friction: Option<f64>,
 }
 
-/// The shapes of a solid, in the frame of its link.
-pub fn shapes(solid: &solid::Solid, friction: Option<f64>, colour: &str) -> Vec<Shape> {
+/// How the solids of a machine look and feel.
+#[derive(Clone, Copy)]
+pub struct Surface<'a> {
+    pub colour: &'a str,
+    /// Coefficient, if the source of the machine gives one.
+    pub friction: Option<f64>,
+}
+
+/// The shapes of solids, in the frame of their link. Each has a name of its own: that of its solid, if possible.
+pub fn shapes<'a>(solids: impl IntoIterator<Item = (&'a solid::Solid, Surface<'a>)>) -> Vec<Shape> {
+    let mut names = Names::default();
+    let named = solids.into_iter().map(|(solid, surface)| (names.take(&solid.name), solid, surface));
+    let named: Vec<_> = named.collect();
+    named.into_iter().flat_map(|(name, solid, surface)| of_solid(name, solid, surface, &mut names)).collect()
+}
+
+fn of_solid(name: String, solid: &solid::Solid, surface: Surface, names: &mut Names) -> Vec<Shape> {
     let shape = |name: String, pose: &Pose, geometry: String| Shape {
         name,
         pose: number::pose(pose),
         geometry,
-        colour: colour.to_string(),
-        contact: Some(Contact { friction }),
+        colour: surface.colour.to_string(),
+        contact: Some(Contact { friction: surface.friction }),
     };
     match solid.shape {
-        solid::Shape::Box { size } => vec![shape(solid.name.clone(), &solid.pose, cuboid(size))],
+        solid::Shape::Box { size } => vec![shape(name, &solid.pose, cuboid(size))],
         solid::Shape::Capsule { length, radius } => {
             let end = |z: f64| solid.pose.then(&Pose { position: Point::new(0.0, 0.0, z), ..Pose::IDENTITY });
             let ball = format!("<sphere><radius>{}</radius></sphere>", number::length(radius));
@@ -41,10 +57,11 @@ pub fn shapes(solid: &solid::Solid, friction: Option<f64>, colour: &str) -> Vec<
                 number::length(radius),
                 number::length(length)
             );
+            let [lower, upper] = ["lower", "upper"].map(|end| names.take(&format!("{name}_{end}_end")));
             vec![
-                shape(solid.name.clone(), &solid.pose, tube),
-                shape(format!("{}_lower_end", solid.name), &end(-length / 2.0), ball.clone()),
-                shape(format!("{}_upper_end", solid.name), &end(length / 2.0), ball),
+                shape(name, &solid.pose, tube),
+                shape(lower, &end(-length / 2.0), ball.clone()),
+                shape(upper, &end(length / 2.0), ball),
             ]
         }
     }
