@@ -1,8 +1,10 @@
 //! What the check of a layout says of the flow of items along a conveyor is what happens in a run.
 
-use autogen_tests::{Texts, stepped, text};
+use autogen::executor::Executor;
+use autogen_tests::{Texts, text};
 use runtime_sim::carrier::Carrier;
 use runtime_sim::random::Random;
+use runtime_sim::run::{Stepping, run};
 use serde_json::{Value, json};
 
 /// Where things are along the conveyor, m.
@@ -45,16 +47,17 @@ impl Places {
 
     /// The sink in which the item ends in a run without a goal, and what it is then.
     fn ends(&self, diverts: bool) -> Option<(String, String)> {
-        let texts = self.texts(diverts, &Value::Null);
-        let plant = texts.project().plant.clone();
+        let project = self.texts(diverts, &Value::Null).project();
+        let plant = &project.plant;
         let mut end = None;
-        stepped::report(&texts, |seen| {
+        let report = run(plant, &mut Executor::new(&project.system), Stepping::EveryScan, &mut |seen| {
             let item = &seen.plant.items()[0];
             if let Carrier::Sink { machine, part } = item.carrier {
                 let sink = plant.machines[machine].parts[part].name.clone();
                 end = Some((sink, plant.kinds[item.kind].name.clone()));
             }
         });
+        report.expect("a line that can be run");
         end
     }
 }
@@ -66,9 +69,10 @@ fn what_is_feasible_happens_and_what_is_not_does_not() {
     for _ in 0..60 {
         let mut drawn =
             |least: u32, most: u32| f64::from(5 * (least + 2 * random.up_to((most - least) / 2))) / 100.0;
+        let source = drawn(2, 40);
         // No edge of an item just gets to something.
-        let places =
-            Places { source: drawn(2, 40), sink: drawn(10, 60), printer: drawn(3, 59), gate: drawn(3, 59) };
+        let sink = drawn((source * 20.0).round() as u32 + 2, 60);
+        let places = Places { source, sink, printer: drawn(3, 59), gate: drawn(3, 59) };
         for diverts in [false, true] {
             let (goal, wanted) = match diverts {
                 false => (json!({"line.store": {"printed": 1}}), ("store", "printed")),
@@ -98,22 +102,27 @@ fn what_stands_where_no_item_gets_to_is_named() {
             .collect()
     };
     let printed = || json!({"line.store": {"printed": 1}});
-    let help = "move what no item gets to, the sink or the source along the conveyor, or change the goal";
+    let help = "move what no item gets to along its conveyor; or let such a kind get there, add `printed` to `items` of `supply`, or \
+                take it out of the goal";
+    let missing = "no `printed` can get to the sink line.store";
+    let [none, maker] = ["no source brings a `printed`", "line makes it of a `raw`"];
     assert_eq!(
         told(Places { source: 0.2, sink: 1.0, printer: 1.5, gate: 0.95 }, false, printed()),
         [
-            "no `printed` can get to the sink line.store",
-            "no source brings a `printed`",
-            "line.print is at 1.500 m of belt: the middle of a `raw` leaves it at 1.000 m, by store",
+            missing,
+            none,
+            maker,
+            "line.print at 1.500 m of belt acts on a `raw` with its middle from 1.400 to 1.600 m, and this leaves it at 1.000 m, by store",
             help
         ]
     );
     assert_eq!(
         told(Places { source: 1.8, sink: 2.8, printer: 1.5, gate: 2.0 }, false, printed()),
         [
-            "no `printed` can get to the sink line.store",
-            "no source brings a `printed`",
-            "line.print is at 1.500 m of belt: the middle of a `raw` comes onto it at 1.800 m",
+            missing,
+            none,
+            maker,
+            "line.print at 1.500 m of belt acts on a `raw` with its middle from 1.400 to 1.600 m, and this comes onto it at 1.800 m",
             help
         ]
     );
@@ -123,8 +132,36 @@ fn what_stands_where_no_item_gets_to_is_named() {
         [
             "no `raw` can get to the sink line.beside",
             "machines that a `raw` can get to: line",
-            "line.gate is at 1.500 m of belt: the middle of a `raw` comes onto it at 1.800 m",
-            help
+            "line.gate at 1.500 m of belt acts on a `raw` with its middle at 1.400 m, and this comes onto it at 1.800 m",
+            "move what no item gets to along its conveyor; or let a conveyor begin where the one before it ends, or name a sink after \
+             these machines in the goal"
         ]
     );
+}
+
+/// Its place says nothing of what may lie on it.
+#[test]
+fn on_trays_things_may_get_anywhere() {
+    let places = Places { source: 0.2, sink: 1.0, printer: 1.5, gate: 0.95 };
+    let mut texts = places.texts(false, &json!({"line.store": {"printed": 1}}));
+    assert_eq!(texts.compile().diagnostics.len(), 1);
+    let scenario = texts.scenario.as_mut().expect("a scenario");
+    *scenario =
+        scenario.replacen("[{", r#"[{"name": "tray", "height": 0.1, "size": [0.5, 0.3], "bears": {}}, {"#, 1);
+    let found = texts.compile().diagnostics;
+    assert!(found.iter().all(|found| found.code != "E0410"), "{found:?}");
+}
+
+#[test]
+fn items_appear_before_they_leave() {
+    let texts = |source| Places { source, sink: 1.0, printer: 0.5, gate: 0.95 }.texts(false, &Value::Null);
+    assert!(texts(0.95).compile().diagnostics.iter().all(|found| found.code != "E0711"));
+    for source in [1.0, 1.05, 2.9] {
+        let found = texts(source).compile().diagnostics;
+        let [one] = &found[..] else { panic!("{found:?}") };
+        let expected = format!(
+            "`line` cannot be built from its device: feed puts items onto belt at {source:.3} m, and store takes them off at 1.000 m"
+        );
+        assert_eq!((one.code, &one.message), ("E0711", &expected));
+    }
 }

@@ -457,7 +457,7 @@ fn a_planted_file_is_not_read_whole() {
     fs::create_dir_all(folder.join("out/default/graph")).expect("a folder");
     for name in ["manifest.json", "graph/plan.svg"] {
         let path = folder.join("out/default").join(name);
-        fs::File::create(&path).and_then(|file| file.set_len(2_000_000_000)).expect("a sparse file");
+        fs::File::create(&path).and_then(|file| file.set_len(1_050_000_000)).expect("a sparse file");
         let limited = format!("ulimit -v 1000000; exec {} build default.json", env!("CARGO_BIN_EXE_autogen"));
         let output =
             Command::new("sh").args(["-c", &limited]).current_dir(&folder).output().expect("a shell");

@@ -82,8 +82,8 @@ fn models(machine: &Machine) -> impl Iterator<Item = Model> {
         return [Some(model), None, cameras].into_iter().flatten();
     };
     // Names of a layout have no two underscores in a row.
-    let beside =
-        (!others.is_empty()).then(|| without_vehicle(format!("{name}__beside"), machine, &others, surface));
+    let name_beside = format!("{}__beside", machine.name);
+    let beside = (!others.is_empty()).then(|| without_vehicle(name_beside, machine, &others, surface));
     [Some(Model::vehicle(name, start.pose(), &carried, mass, &colour)), beside, sensor::beside(machine)]
         .into_iter()
         .flatten()

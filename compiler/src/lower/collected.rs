@@ -9,9 +9,9 @@ use crate::connect::Edge;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 use crate::scenario::Scenario;
-use along::Beside;
+use along::Along;
 use by_hand::ByHand;
-use missing::{Asked, Missing};
+use missing::{Asked, Missing, open_ends};
 use runtime_sim::line::{self, Goal, Line};
 use runtime_sim::part::Primitive;
 use runtime_sim::part::process::Process;
@@ -47,6 +47,11 @@ pub fn out_of_reach(
     }
     let Some(by_hand) = ByHand::new(line, without_handovers(line, edges)) else { return Vec::new() };
     let reached = reached(line, handovers(edges).chain(by_hand.pairs()), transfers, None);
+    // Trays bear what falls onto them wherever they are, and what falls off a conveyor with them.
+    let has_trays = line.kinds.iter().any(|kind| kind.deck.is_some());
+    if has_trays && (0..line.kinds.len()).any(|kind| !open_ends(line, transfers, &reached, kind).is_empty()) {
+        return Vec::new();
+    }
     let missing = Missing { line, transfers, by_hand: &by_hand, reached: &reached };
     let mut found = Vec::new();
     if let Goal::Collected(goal) = &line.scenario.goal {
@@ -189,6 +194,7 @@ fn reached(
     };
     let mut hands_to = vec![Vec::new(); line.machines.len()];
     handovers.for_each(|[from, to]| hands_to[from].push(to));
+    let along = Along::new(line);
     let mut reached = Reached::new();
     while let Some((spot, kind, first)) = open.pop() {
         let (Spot::Lane(machine, _) | Spot::Machine(machine)) = spot;
@@ -204,7 +210,7 @@ fn reached(
             Spot::Lane(machine, part) => {
                 let next = leads_to.get(&(machine, part)).into_iter().flatten();
                 let next = next
-                    .filter(|transfer| transfer.kinds.contains(&kind) && goes(line, transfer, kind, first));
+                    .filter(|transfer| transfer.kinds.contains(&kind) && goes(&along, transfer, kind, first));
                 open.extend(next.map(|transfer| (onto(transfer.to), kind, 0.0)));
                 open.push((Spot::Machine(machine), kind, 0.0));
             }
@@ -218,31 +224,38 @@ fn reached(
                 }
             }
         }
-        open.extend(made_at(line, spot, kind, first).map(|(made, first)| (spot, made, first)));
+        open.extend(made_at(line, &along, spot, kind, first).map(|(made, first)| (spot, made, first)));
     }
     reached
 }
 
 /// Whether an item goes by a transfer whose middle comes onto the first lane at `first`.
-fn goes(line: &Line, transfer: &Transfer, kind: usize, first: f64) -> bool {
+fn goes(along: &Along, transfer: &Transfer, kind: usize, first: f64) -> bool {
     let machine = transfer.from.0;
     match transfer.by {
-        By::Branch { part } => Beside::of(line, (machine, part), kind)
-            .is_none_or(|branch| branch.reached(line, machine, first).is_ok()),
+        By::Branch { part } => along
+            .beside((machine, part), kind)
+            .is_none_or(|branch| along.reached(&branch, machine, first).is_ok()),
         By::Joint { .. } | By::Fall => true,
     }
 }
 
 /// The kinds that one becomes there, and from where on: on a lane by what works on it, elsewhere on a machine by what works
 /// at its places.
-fn made_at(line: &Line, spot: Spot, kind: usize, first: f64) -> impl Iterator<Item = (usize, f64)> {
+fn made_at(
+    line: &Line,
+    along: &Along,
+    spot: Spot,
+    kind: usize,
+    first: f64,
+) -> impl Iterator<Item = (usize, f64)> {
     let (Spot::Lane(machine, _) | Spot::Machine(machine)) = spot;
     let parts = line.machines[machine].parts.iter().enumerate();
     let processes = parts.filter_map(move |(part, of)| {
         let Primitive::Process(process) = &of.primitive else { return None };
-        let from = match (spot, Beside::of(line, (machine, part), kind)) {
+        let from = match (spot, along.beside((machine, part), kind)) {
             (Spot::Lane(_, lane), Some(beside)) if beside.lane == lane => {
-                beside.reached(line, machine, first).ok()?
+                along.reached(&beside, machine, first).ok()?
             }
             (Spot::Machine(_), None) => 0.0,
             _ => return None,

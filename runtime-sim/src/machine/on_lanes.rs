@@ -3,6 +3,7 @@
 use super::{Machine, Misfit, ROUNDED};
 use crate::part::lane::{CentreLine, Lane};
 use crate::part::process::Process;
+use crate::part::source::Source;
 use crate::part::stroke::Strokes;
 use crate::part::{Part, Primitive};
 use crate::point::Point;
@@ -40,6 +41,7 @@ impl Machine {
         match &part.primitive {
             Primitive::Lane(lane) => self.check_over_floor(&part.name, lane).map_err(of_part),
             Primitive::Sink(sink) => self.check_only_sink(index, sink.lane),
+            Primitive::Source(source) => self.check_source(index, source),
             Primitive::Diverter(d) => {
                 self.check_branch(index, &Branch { lane: d.lane, at: d.at, onto: d.onto })
             }
@@ -92,6 +94,26 @@ impl Machine {
         Err(Misfit::of(index, reason).fix(
             "take one of them out, or let a diverter or a pusher lead to another lane with the other one",
         ))
+    }
+
+    /// Items that appear where others leave the lane would never come there.
+    fn check_source(&self, index: usize, source: &Source) -> Result<(), Misfit> {
+        let Some(lane) = self.lane_of(source.lane) else { return Ok(()) };
+        let length = lane.centre_line.length();
+        let sink = self.parts.iter().find_map(|part| match &part.primitive {
+            Primitive::Sink(sink) if sink.lane == source.lane => Some((&part.name, sink.inset)),
+            _ => None,
+        });
+        let last = length - sink.map_or(0.0, |(_, inset)| inset);
+        if source.inset < last - ROUNDED {
+            return Ok(());
+        }
+        let (name, on) = (&self.parts[index].name, &self.parts[source.lane].name);
+        let leave = sink.map_or("it ends".into(), |(sink, _)| format!("{sink} takes them off"));
+        let reason =
+            format!("{name} puts items onto {on} at {:.3} m, and {leave} at {last:.3} m", source.inset);
+        let fix = "let items appear before the place where they leave the lane: give `inset` a lower value";
+        Err(Misfit::of(index, reason).fix(fix))
     }
 
     fn lane_of(&self, part: usize) -> Option<&Lane> {

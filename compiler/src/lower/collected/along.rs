@@ -8,12 +8,18 @@ use runtime_sim::part::lane::Lane;
 /// Rounding of a place, m.
 const SAME: f64 = 1e-6;
 
+pub struct Along<'a> {
+    line: &'a Line,
+    /// Of kinds that never lie on other items or are parts of them: where these are says where they are.
+    alone: Vec<bool>,
+}
+
 /// A process on a lane, a diverter or a pusher.
 pub struct Beside {
     pub lane: usize,
     pub at: f64,
     /// Where the middle of an item is on which it acts.
-    middles: [f64; 2],
+    pub middles: [f64; 2],
 }
 
 /// Why no item of a kind gets to it.
@@ -24,55 +30,69 @@ pub enum Missed {
     Before(f64, Option<usize>),
 }
 
-impl Beside {
+impl<'a> Along<'a> {
+    pub fn new(line: &'a Line) -> Self {
+        let bears = line.kinds.iter().any(|kind| kind.deck.is_some());
+        let mut alone = vec![!bears; line.kinds.len()];
+        let processes = line.machines.iter().flat_map(|machine| machine.processes());
+        for joined in processes.flat_map(|(_, process)| &process.joins) {
+            if let Some(kind) = line.kinds.iter().position(|kind| kind.name == *joined) {
+                alone[kind] = false;
+            }
+        }
+        Self { line, alone }
+    }
+
     /// Of a machine and part, as it acts on items of a kind; none for any other part.
-    pub fn of(line: &Line, (machine, part): (usize, usize), kind: usize) -> Option<Self> {
-        let parts = &line.machines[machine].parts;
+    pub fn beside(&self, (machine, part): (usize, usize), kind: usize) -> Option<Beside> {
+        let parts = &self.line.machines[machine].parts;
         let half = |lane: usize| match &parts[lane].primitive {
-            Primitive::Lane(lane) => lane.lengths_of(line.kinds[kind].size)[0] / 2.0,
+            Primitive::Lane(lane) => lane.lengths_of(self.line.kinds[kind].size)[0] / 2.0,
             _ => 0.0,
         };
-        match &parts[part].primitive {
+        let (lane, at, middles) = match &parts[part].primitive {
             Primitive::Process(process) => {
                 let (lane, at) = (process.on, process.at?);
-                Some(Self { lane, at, middles: [at - half(lane), at + half(lane)] })
+                (lane, at, [at - half(lane), at + half(lane)])
             }
             Primitive::Diverter(diverter) => {
                 let (lane, at) = (diverter.lane, diverter.at);
-                Some(Self { lane, at, middles: [at - half(lane); 2] })
+                (lane, at, [at - half(lane); 2])
             }
             Primitive::Pusher(pusher) => {
                 let (lane, at, half) = (pusher.lane, pusher.at, pusher.width / 2.0);
-                Some(Self { lane, at, middles: [at - half, at + half] })
+                (lane, at, [at - half, at + half])
             }
-            _ => None,
-        }
+            _ => return None,
+        };
+        let anywhere = [f64::NEG_INFINITY, f64::INFINITY];
+        Some(Beside { lane, at, middles: if self.alone[kind] { middles } else { anywhere } })
     }
 
     /// Where an item is at the earliest when this acts on it whose middle comes onto the lane of this machine at `first`.
-    pub fn reached(&self, line: &Line, machine: usize, first: f64) -> Result<f64, Missed> {
-        let [low, high] = self.middles;
-        let (last, sink) = leaves(line, machine, self.lane);
+    pub fn reached(&self, beside: &Beside, machine: usize, first: f64) -> Result<f64, Missed> {
+        let [low, high] = beside.middles;
+        let (last, sink) = self.leaves(machine, beside.lane);
         if first > high + SAME {
             Err(Missed::Behind(first))
-        } else if low > last + SAME {
+        } else if low > last - SAME {
             Err(Missed::Before(last, sink))
         } else {
             Ok(first.max(low))
         }
     }
-}
 
-/// Where the middle of an item leaves a lane, and the part of the machine that is the sink there.
-fn leaves(line: &Line, machine: usize, lane: usize) -> (f64, Option<usize>) {
-    let parts = &line.machines[machine].parts;
-    let length = match &parts[lane].primitive {
-        Primitive::Lane(Lane { centre_line, .. }) => centre_line.length(),
-        _ => f64::INFINITY,
-    };
-    let sink = parts.iter().enumerate().find_map(|(number, part)| match &part.primitive {
-        Primitive::Sink(sink) if sink.lane == lane => Some((length - sink.inset, Some(number))),
-        _ => None,
-    });
-    sink.unwrap_or((length, None))
+    /// Where the middle of an item leaves a lane, and the part of the machine that is the sink there.
+    fn leaves(&self, machine: usize, lane: usize) -> (f64, Option<usize>) {
+        let parts = &self.line.machines[machine].parts;
+        let length = match &parts[lane].primitive {
+            Primitive::Lane(Lane { centre_line, .. }) => centre_line.length(),
+            _ => f64::INFINITY,
+        };
+        let sink = parts.iter().enumerate().find_map(|(number, part)| match &part.primitive {
+            Primitive::Sink(sink) if sink.lane == lane => Some((length - sink.inset, Some(number))),
+            _ => None,
+        });
+        sink.unwrap_or((length, None))
+    }
 }

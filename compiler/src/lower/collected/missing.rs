@@ -1,6 +1,6 @@
 //! What is said of a kind that cannot get to where it is asked for.
 
-use super::along::{Beside, Missed};
+use super::along::{Along, Missed};
 use super::by_hand::ByHand;
 use super::{Reached, Spot, made_by};
 use crate::diagnostic::Diagnostic;
@@ -39,7 +39,10 @@ impl Missing<'_> {
         let passed = machines.filter(|(number, _)| reached.contains_key(&(Spot::Machine(*number), kind)));
         let (numbers, passed): (Vec<usize>, Vec<&str>) =
             passed.map(|(number, machine)| (number, machine.name.as_str())).unzip();
-        let misplaced = misplaced(line, reached);
+        let misplaced = misplaced(line, reached, kind);
+        let noted =
+            |diagnostic: Diagnostic| misplaced.iter().fold(diagnostic, |d, note| d.note(note.clone()));
+        let help = |usual: String| if misplaced.is_empty() { usual } else { format!("{MOVE}; or {usual}") };
         if passed.is_empty() {
             let makers = line.machines.iter().flat_map(|machine| {
                 let from = line.kinds.iter().enumerate();
@@ -50,17 +53,15 @@ impl Missing<'_> {
             });
             let makers: Vec<String> = makers.collect();
             let diagnostic = diagnostic.note(format!("no source brings a `{name}`"));
-            return if !misplaced.is_empty() {
-                noted(diagnostic, &misplaced).help(MOVE)
-            } else if makers.is_empty() {
-                diagnostic.note(format!("no process makes a `{name}`")).help(format!(
+            return if makers.is_empty() {
+                noted(diagnostic.note(format!("no process makes a `{name}`"))).help(help(format!(
                     "add `{name}` to `items` of `supply`, let a process make it (`makes: [KIND, {name}]`), or take it \
                      out of {from}"
-                ))
+                )))
             } else {
-                diagnostic.note(makers.join(", ")).help(format!(
+                noted(diagnostic.note(makers.join(", "))).help(help(format!(
                     "let such a kind get there, add `{name}` to `items` of `supply`, or take it out of {from}"
-                ))
+                )))
             };
         }
         let mut diagnostic =
@@ -79,10 +80,7 @@ impl Missing<'_> {
                 "the tool of {arm} stays at least {apart:.3} m away from items on {other}, the nearest of these machines"
             ));
         }
-        if !misplaced.is_empty() {
-            return noted(diagnostic, &misplaced).help(MOVE);
-        }
-        diagnostic.help(match asked {
+        noted(diagnostic).help(help(match asked {
             Asked::Sink(_) => {
                 "let a conveyor begin where the one before it ends, or name a sink after these machines in the goal"
                     .to_owned()
@@ -92,53 +90,76 @@ impl Missing<'_> {
                  nearer to these machines, or take `{name}` out of the orders",
                 station.value
             ),
-        })
+        }))
     }
 }
 
-/// What may help where something stands along a conveyor that items do not get to.
-const MOVE: &str = "move what no item gets to, the sink or the source along the conveyor, or change the goal";
+/// What helps too where something stands along a conveyor that items do not get to.
+const MOVE: &str = "move what no item gets to along its conveyor";
 /// No more parts are named that stand where items do not get to.
 const MOST_NAMED: usize = 5;
 
-fn noted(diagnostic: Diagnostic, notes: &[String]) -> Diagnostic {
-    notes.iter().take(MOST_NAMED).fold(diagnostic, |diagnostic, note| diagnostic.note(note.clone()))
+/// The kinds that processes can make a kind of, one after another, and itself.
+fn becoming(line: &Line, kind: usize) -> Vec<bool> {
+    let mut known = vec![false; line.kinds.len()];
+    let mut open = vec![kind];
+    while let Some(kind) = open.pop() {
+        if std::mem::replace(&mut known[kind], true) {
+            continue;
+        }
+        let processes = line.machines.iter().flat_map(|machine| machine.processes());
+        let made = processes.flat_map(|(_, process)| process.made());
+        let from = made.filter(|[_, to]| *to == line.kinds[kind].name);
+        open.extend(from.filter_map(|[from, _]| line.kinds.iter().position(|other| other.name == from)));
+    }
+    known
 }
 
-/// A text for each process, diverter and pusher along a conveyor that kinds do not get to which are on this conveyor.
-fn misplaced(line: &Line, reached: &Reached) -> Vec<String> {
+/// A text for each process, diverter and pusher along a conveyor that would bring a kind nearer to where it is missing, and
+/// does not get the items for that which are on this conveyor.
+fn misplaced(line: &Line, reached: &Reached, kind: usize) -> Vec<String> {
+    let (along, wanted) = (Along::new(line), becoming(line, kind));
     let mut texts = Vec::new();
     for (number, machine) in line.machines.iter().enumerate() {
         for (part, of) in machine.parts.iter().enumerate() {
-            let works_on = |kind: usize| match &of.primitive {
-                Primitive::Process(process) => made_by(line, process, kind).next().is_some(),
-                _ => true,
+            let helps = |kind: usize| match &of.primitive {
+                Primitive::Process(process) => made_by(line, process, kind).any(|made| wanted[made]),
+                _ => wanted[kind],
             };
-            let missed = (0..line.kinds.len()).filter(|kind| works_on(*kind)).find_map(|kind| {
-                let beside = Beside::of(line, (number, part), kind)?;
+            let missed = (0..line.kinds.len()).filter(|kind| helps(*kind)).find_map(|kind| {
+                let beside = along.beside((number, part), kind)?;
                 let first = reached.get(&(Spot::Lane(number, beside.lane), kind))?;
-                Some((kind, beside.reached(line, number, *first).err()?, beside))
+                Some((kind, along.reached(&beside, number, *first).err()?, beside))
             });
-            let Some((kind, missed, Beside { lane, at, .. })) = missed else { continue };
+            let Some((kind, missed, beside)) = missed else { continue };
             let (kind, name) = (&line.kinds[kind].name, |part: usize| &machine.parts[part].name);
             let gets = match missed {
-                Missed::Behind(first) => format!("comes onto it at {first:.3} m"),
-                Missed::Before(last, Some(sink)) => format!("leaves it at {last:.3} m, by {}", name(sink)),
-                Missed::Before(last, None) => format!("leaves it at its end, at {last:.3} m"),
+                Missed::Behind(first) => format!("this comes onto it at {first:.3} m"),
+                Missed::Before(last, Some(sink)) => {
+                    format!("this leaves it at {last:.3} m, by {}", name(sink))
+                }
+                Missed::Before(last, None) => format!("this leaves it at its end, at {last:.3} m"),
+            };
+            let [low, high] = beside.middles;
+            let middles = match high - low > 0.0 {
+                true => format!("from {low:.3} to {high:.3} m"),
+                false => format!("at {low:.3} m"),
             };
             texts.push(format!(
-                "{}.{} is at {at:.3} m of {}: the middle of a `{kind}` {gets}",
+                "{}.{} at {:.3} m of {} acts on a `{kind}` with its middle {middles}, and {gets}",
                 machine.name,
                 of.name,
-                name(lane)
+                beside.at,
+                name(beside.lane)
             ));
         }
     }
+    texts.truncate(MOST_NAMED);
     texts
 }
 
 /// The conveyors at the end of which a kind falls onto neither a conveyor nor a place.
-fn open_ends(line: &Line, transfers: &[Transfer], reached: &Reached, kind: usize) -> Vec<String> {
+pub fn open_ends(line: &Line, transfers: &[Transfer], reached: &Reached, kind: usize) -> Vec<String> {
     let mut ends = Vec::new();
     for (number, machine) in line.machines.iter().enumerate() {
         for (part, of) in machine.parts.iter().enumerate() {
