@@ -122,7 +122,7 @@ fn what_stands_where_no_item_gets_to_is_named() {
             missing,
             none,
             maker,
-            "line.print at 1.500 m of belt acts on a `raw` with its middle from 1.400 to 1.600 m, and this comes onto it at 1.800 m",
+            "line.print at 1.500 m of belt acts on a `raw` with its middle from 1.400 to 1.600 m, and this is on it from 1.800 m on",
             help
         ]
     );
@@ -132,7 +132,7 @@ fn what_stands_where_no_item_gets_to_is_named() {
         [
             "no `raw` can get to the sink line.beside",
             "machines that a `raw` can get to: line",
-            "line.gate at 1.500 m of belt acts on a `raw` with its middle at 1.400 m, and this comes onto it at 1.800 m",
+            "line.gate at 1.500 m of belt acts on a `raw` with its middle at 1.400 m, and this is on it from 1.800 m on",
             "move what no item gets to along its conveyor; or let a conveyor begin where the one before it ends, or name a sink after \
              these machines in the goal"
         ]

@@ -213,6 +213,9 @@ fn reached(
                     .filter(|transfer| transfer.kinds.contains(&kind) && goes(&along, transfer, kind, first));
                 open.extend(next.map(|transfer| (onto(transfer.to), kind, 0.0)));
                 open.push((Spot::Machine(machine), kind, 0.0));
+                if along.may_close(machine, part) {
+                    open.push((spot, kind, 0.0));
+                }
             }
             Spot::Machine(machine) => {
                 for &to in &hands_to[machine] {

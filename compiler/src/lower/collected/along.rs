@@ -3,7 +3,8 @@
 
 use runtime_sim::line::Line;
 use runtime_sim::part::Primitive;
-use runtime_sim::part::lane::Lane;
+use runtime_sim::part::lane::{CentreLine, Lane};
+use std::f64::consts::PI;
 
 /// Rounding of a place, m.
 const SAME: f64 = 1e-6;
@@ -80,6 +81,16 @@ impl<'a> Along<'a> {
         } else {
             Ok(first.max(low))
         }
+    }
+
+    /// Whether what comes to the end of a lane may fall onto its beginning: on an arc of more than half a circle.
+    pub fn may_close(&self, machine: usize, lane: usize) -> bool {
+        let Primitive::Lane(Lane { centre_line: CentreLine::Arc { length, radius, .. }, .. }) =
+            self.line.machines[machine].parts[lane].primitive
+        else {
+            return false;
+        };
+        length > PI * radius.abs() && self.leaves(machine, lane).1.is_none()
     }
 
     /// Where the middle of an item leaves a lane, and the part of the machine that is the sink there.

@@ -134,7 +134,7 @@ fn misplaced(line: &Line, reached: &Reached, kind: usize) -> Vec<String> {
             let Some((kind, missed, beside)) = missed else { continue };
             let (kind, name) = (&line.kinds[kind].name, |part: usize| &machine.parts[part].name);
             let gets = match missed {
-                Missed::Behind(first) => format!("this comes onto it at {first:.3} m"),
+                Missed::Behind(first) => format!("this is on it from {first:.3} m on"),
                 Missed::Before(last, Some(sink)) => {
                     format!("this leaves it at {last:.3} m, by {}", name(sink))
                 }
