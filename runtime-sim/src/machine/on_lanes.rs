@@ -104,6 +104,8 @@ impl Machine {
             Primitive::Sink(sink) if sink.lane == source.lane => Some((&part.name, sink.inset)),
             _ => None,
         });
+        // One that is not at the lane is told itself.
+        let sink = sink.filter(|(_, inset)| (-ROUNDED..=length + ROUNDED).contains(inset));
         let last = length - sink.map_or(0.0, |(_, inset)| inset);
         if source.inset < last - ROUNDED {
             return Ok(());
