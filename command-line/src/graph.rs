@@ -26,11 +26,12 @@ pub fn run(options: &GraphOptions) -> Status {
         return Status::Done;
     }
     let files = dot::files(&project);
+    let model = &project.system.model;
+    let mut automata = model.automata.iter().zip(dot::names(model));
     let snake = naming::snake(&options.of);
-    let graph = [&options.of, &snake, &format!("{snake}_")]
-        .into_iter()
-        .find_map(|name| files.get(&format!("{name}.dot")));
-    match graph {
+    let named = automata.find(|(automaton, name)| automaton.name == options.of || *name == snake);
+    let name = named.map_or(options.of.clone(), |(_, name)| name);
+    match files.get(&format!("{name}.dot")) {
         Some(text) => {
             say_part!("{text}");
             Status::Done

@@ -1,7 +1,7 @@
 //! What the check of a layout says of the flow of items along a conveyor is what happens in a run.
 
 use autogen::executor::Executor;
-use autogen_tests::{Texts, text};
+use autogen_tests::{Texts, stepped, text};
 use runtime_sim::carrier::Carrier;
 use runtime_sim::random::Random;
 use runtime_sim::run::{Stepping, run};
@@ -164,4 +164,23 @@ fn items_appear_before_they_leave() {
         );
         assert_eq!((one.code, &one.message), ("E0711", &expected));
     }
+}
+
+#[test]
+fn what_comes_round_to_its_beginning_gets_to_what_stands_there() {
+    let texts = Texts {
+        layout: json!({"robots": [{"name": "line", "type": "ring", "pose": [0, 0, 1, 0]}]}).to_string(),
+        specs: vec![text("tests/fixtures/flow/ring.aut")],
+        scenario: Some(
+            json!({
+                "kinds": [{"name": "raw", "height": 0.1, "size": [0.2, 0.2]}, {"name": "printed", "height": 0.1, "size": [0.2, 0.2]}],
+                "supply": {"first_s": 1, "items": {"line": ["raw"]}},
+                "goal": {"line.beside": {"printed": 1}},
+                "time_limit_s": 40
+            })
+            .to_string(),
+        ),
+        ..Texts::default()
+    };
+    assert_eq!(stepped::report(&texts, |_| {}).reason, "all items collected");
 }

@@ -1,7 +1,7 @@
 //! Graphs in the language of Graphviz: who hands over to whom, and the automata.
 
 use super::Files;
-use crate::ir::Automaton;
+use crate::ir::{Automaton, Model};
 use crate::lower::Project;
 use crate::naming::{self, Scope};
 use runtime_sim::plant::By;
@@ -17,12 +17,16 @@ pub fn files(project: &Project) -> Files {
     let system = &project.system;
     let mut files = Files::new();
     files.insert(format!("{CONNECTIVITY}.dot"), connectivity(project));
-    let mut names = Scope::new(&[&[CONNECTIVITY, PLAN], naming::NO_FILES].concat());
-    for automaton in &system.model.automata {
-        let name = names.take(naming::snake(&automaton.name));
+    for (automaton, name) in system.model.automata.iter().zip(names(&system.model)) {
         files.insert(format!("{name}.dot"), states(automaton));
     }
     files
+}
+
+/// Of the graph of each automaton: that of its file.
+pub fn names(model: &Model) -> Vec<String> {
+    let mut names = Scope::new(&[&[CONNECTIVITY, PLAN], naming::NO_FILES].concat());
+    model.automata.iter().map(|automaton| names.take(naming::snake(&automaton.name))).collect()
 }
 
 fn connectivity(Project { system, edges, transfers, .. }: &Project) -> String {

@@ -46,9 +46,14 @@ pub fn shapes(machine: &Machine) -> Vec<(Shape, &'static str)> {
     }
 }
 
-fn of_lane(machine: &Machine, lane: &Lane) -> Shape {
+/// Where a lane is at the start.
+pub fn centre_line(machine: &Machine, lane: &Lane) -> CentreLine {
     let strokes = lane.on.and_then(|part| machine.parts[part].strokes());
-    let centre_line = strokes.map_or(lane.centre_line, |strokes| lane.centre_line.moved(strokes.begin()));
+    strokes.map_or(lane.centre_line, |strokes| lane.centre_line.moved(strokes.begin()))
+}
+
+fn of_lane(machine: &Machine, lane: &Lane) -> Shape {
+    let centre_line = centre_line(machine, lane);
     match centre_line {
         CentreLine::Axis { along, range: [low, high], surface } => {
             let (middle, length) = ((low + high) / 2.0, high - low);
@@ -201,14 +206,15 @@ pub fn label(machine: &Machine) -> Point {
         return track.begin().position + Point::new(0.0, 0.5, 0.0);
     }
     if let Some(lane) = machine.lane() {
-        return match lane.centre_line {
+        let centre_line = centre_line(machine, lane);
+        return match centre_line {
             CentreLine::Axis { along: Axis::X, range: [low, high], .. } => {
                 Point::new((low + high) / 2.0, pose.y + lane.outline / 2.0 + 0.2, 0.0)
             }
             CentreLine::Axis { along: Axis::Y, range, .. } => Point::new(pose.x, range[1] + 0.2, 0.0),
             CentreLine::Line { .. } | CentreLine::Arc { .. } => {
-                let middle = lane.centre_line.end() + lane.centre_line.length() / 2.0;
-                lane.centre_line.point(middle, lane.outline / 2.0 + 0.2)
+                let middle = centre_line.end() + centre_line.length() / 2.0;
+                centre_line.point(middle, lane.outline / 2.0 + 0.2)
             }
         };
     }

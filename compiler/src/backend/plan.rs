@@ -7,7 +7,7 @@ use crate::connect::Edge;
 use arrow::Arrow;
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
-use runtime_sim::part::lane::{CentreLine, Lane};
+use runtime_sim::part::lane::CentreLine;
 use runtime_sim::point::Point;
 use std::fmt::Write;
 
@@ -58,7 +58,7 @@ fn meeting(machine: &Machine, other: &Machine, leaves: bool) -> Point {
         return from + rail.scaled(part.clamp(0.0, 1.0));
     }
     if let Some(lane) = machine.lane().filter(|lane| !matches!(lane.centre_line, CentreLine::Axis { .. })) {
-        return nearest(lane, other.pose);
+        return nearest(&footprint::centre_line(machine, lane), other.pose);
     }
     let outlines = outlines(machine);
     match outlines.first() {
@@ -68,8 +68,7 @@ fn meeting(machine: &Machine, other: &Machine, leaves: bool) -> Point {
 }
 
 /// The place on a conveyor that is nearest.
-fn nearest(lane: &Lane, other: Point) -> Point {
-    let line = &lane.centre_line;
+fn nearest(line: &CentreLine, other: Point) -> Point {
     let places = (0..=PLACES).map(|place| line.end() + line.length() * place as f64 / PLACES as f64);
     let points = places.map(|place| line.point(place, 0.0));
     let far = |point: &Point| (point.x - other.x).hypot(point.y - other.y);

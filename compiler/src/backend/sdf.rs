@@ -9,7 +9,6 @@ mod floor;
 mod inertia;
 mod lane;
 mod model;
-mod names;
 mod number;
 mod robot;
 mod sensor;
@@ -77,9 +76,12 @@ fn models(machine: &Machine) -> impl Iterator<Item = Model> {
         machine.solids().into_iter().chain(lanes).partition(|solid| solid.link == Link::Route);
     let mass = machine.route().map(|route| route.mass).or(machine.track().map(|track| track.mass));
     let Some((start, mass)) = machine.start().zip(mass) else {
-        let model = without_vehicle(name, machine, &others, surface);
-        let cameras = if model.is_static { None } else { sensor::beside(machine) };
-        return [Some(model), None, cameras].into_iter().flatten();
+        let mut model = without_vehicle(name, machine, &others, surface);
+        if model.is_static {
+            model.links.extend(sensor::cameras_over(machine));
+            return [Some(model), None, None].into_iter().flatten();
+        }
+        return [Some(model), None, sensor::beside(machine)].into_iter().flatten();
     };
     // Names of a layout have no two underscores in a row.
     let name_beside = format!("{}__beside", machine.name);
@@ -89,16 +91,12 @@ fn models(machine: &Machine) -> impl Iterator<Item = Model> {
         .flatten()
 }
 
-/// What stands, with its cameras, and what is on cylinders and positioners.
+/// What stands, and what is on cylinders and positioners.
 fn without_vehicle(name: String, machine: &Machine, solids: &[Solid], surface: Surface) -> Model {
     if solids.iter().any(|solid| matches!(solid.link, Link::Carriage(_))) {
         return carriage::model(name, machine, solids, surface);
     }
-    let mut model = Model::standing(name, machine.pose, solids, surface);
-    if machine.start().is_none() {
-        model.links.extend(sensor::cameras_over(machine));
-    }
-    model
+    Model::standing(name, machine.pose, solids, surface)
 }
 
 /// None for an obstacle that takes no room.

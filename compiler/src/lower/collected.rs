@@ -47,11 +47,6 @@ pub fn out_of_reach(
     }
     let Some(by_hand) = ByHand::new(line, without_handovers(line, edges)) else { return Vec::new() };
     let reached = reached(line, handovers(edges).chain(by_hand.pairs()), transfers, None);
-    // Trays bear what falls onto them wherever they are, and what falls off a conveyor with them.
-    let has_trays = line.kinds.iter().any(|kind| kind.deck.is_some());
-    if has_trays && (0..line.kinds.len()).any(|kind| !open_ends(line, transfers, &reached, kind).is_empty()) {
-        return Vec::new();
-    }
     let missing = Missing { line, transfers, by_hand: &by_hand, reached: &reached };
     let mut found = Vec::new();
     if let Goal::Collected(goal) = &line.scenario.goal {
@@ -78,6 +73,12 @@ pub fn out_of_reach(
             });
             found.extend(names.map(|name| missing.diagnostic(kind, &Asked::Station(name))));
         }
+    }
+    // Trays bear what falls onto them wherever they are, and what falls off a conveyor with them.
+    let has_trays = line.kinds.iter().any(|kind| kind.deck.is_some());
+    let falls_off = |kind: usize| !open_ends(line, transfers, &reached, kind).is_empty();
+    if !found.is_empty() && has_trays && (0..line.kinds.len()).any(falls_off) {
+        return Vec::new();
     }
     found
 }

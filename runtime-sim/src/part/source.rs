@@ -18,7 +18,7 @@ pub const SCHEMA: Schema = Schema {
                 "inset",
                 Form::Number,
                 "m",
-                "from the lane's beginning to the place where the middles of items appear",
+                "from the lane's beginning to the place where the middles of items appear, before that where they leave it",
             ),
         ],
     )

@@ -2,9 +2,9 @@
 
 use super::inertia::inertial;
 use super::model::{Axis, Joint, Link, Model};
-use super::names::Names;
 use super::number;
 use super::shape::{Surface, shapes};
+use crate::naming::Scope;
 use runtime_sim::frame::Frame;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::machine::Machine;
@@ -22,13 +22,13 @@ const EFFORT: f64 = 1000.0;
 /// is at its inner end.
 pub fn model(name: String, machine: &Machine, solids: &[Solid], surface: Surface) -> Model {
     let mut model = Model::jointed(name);
-    let mut names = Names::default();
+    let mut names = Scope::default();
     let stands: Vec<Solid> = on(solids, solid::Link::World);
     let mut parent = "world".to_string();
     if !stands.is_empty() {
-        parent = names.take("base_link");
+        parent = names.take("base_link".into());
         model.joints.push(Joint {
-            name: names.take("base_joint"),
+            name: names.take("base_joint".into()),
             kind: "fixed",
             parent: "world".into(),
             child: parent.clone(),
@@ -62,7 +62,7 @@ fn link(name: String, frame: Frame, solids: &[Solid], surface: Surface) -> Link 
 /// in the frame of the world.
 pub fn add(
     model: &mut Model,
-    names: &mut Names,
+    names: &mut Scope,
     parent: &str,
     machine: &Machine,
     solids: &[Solid],
@@ -73,7 +73,7 @@ pub fn add(
         let Some(strokes) = part.strokes().filter(|_| !carried.is_empty()) else { continue };
         let Some(stroke) = strokes.stroke else { continue };
         let begins = strokes.stops.get(strokes.begins).copied().unwrap_or_default();
-        let child = names.take(&format!("{}_link", part.name));
+        let child = names.take(format!("{}_link", part.name));
         let carries = link(child.clone(), stroke.frame(begins), &carried, surface);
         let (kind, pose, xyz, length) = match stroke {
             Stroke::Slides(far) => {
@@ -84,7 +84,7 @@ pub fn add(
             }
         };
         model.joints.push(Joint {
-            name: names.take(&format!("{}_joint", part.name)),
+            name: names.take(format!("{}_joint", part.name)),
             kind,
             parent: parent.to_owned(),
             relative_to: child.clone(),

@@ -1,11 +1,11 @@
 //! Robots: a fixed rail, and a link behind each joint of [`runtime_sim::kinematics`], all in the world's frame.
 
 use super::carriage;
-use super::inertia::inertial;
+use super::inertia::{Inertial, inertial};
 use super::model::{self, Joint, Link, Model};
-use super::names::Names;
 use super::number;
-use super::shape::{Surface, shapes};
+use super::shape::{Shape, Surface, shapes};
+use crate::naming::Scope;
 use runtime_sim::kinematics::arm::{Arm, Joints};
 use runtime_sim::kinematics::links;
 use runtime_sim::kinematics::pose::Pose;
@@ -104,32 +104,32 @@ pub fn model(name: String, machine: &Machine, kinematics: &Arm, lanes: &[Solid],
     };
 
     let mut model = Model::jointed(name);
-    let mut names = Names::default();
+    let mut names = Scope::default();
     let rails = of(solid::Link::World);
-    let mut rail = link(names.take("rail_link"), &Pose::IDENTITY, rail_mass(&rails, machine), &rails, RAIL);
     let standing_lanes = lanes.iter().filter(|lane| lane.link == solid::Link::World);
-    let stands = rails.iter().map(|rail| (rail, of_colour(RAIL)));
-    rail.shapes = shapes(stands.chain(standing_lanes.map(|lane| (lane, surface))));
-    model.joints.push(fixed(names.take("rail_mount_joint"), "world", &rail.name));
+    let stands = of_colour(&rails, RAIL).chain(standing_lanes.map(|lane| (lane, surface)));
+    let of_rails = inertial(rail_mass(&rails, machine), &rails);
+    let rail = link(names.take("rail_link".into()), &Pose::IDENTITY, of_rails, shapes(stands));
+    model.joints.push(fixed(names.take("rail_mount_joint".into()), "world", &rail.name));
     model.links.push(rail);
     let mut before = Pose::IDENTITY;
     for (i, (drive, frame)) in drives.iter().zip(frames.iter()).enumerate() {
         let parent = model.links[i].name.clone();
         let colour = if i < carriers { CARRIER } else { ARM };
+        let solids = of(solid::Link::Joint(i));
         let link = Link {
             relative_to: Some(parent.clone()),
             is_weightless: i >= carriers,
             ..link(
-                names.take(&format!("{}_link", drive.link)),
+                names.take(format!("{}_link", drive.link)),
                 &frame.seen_from(&before),
-                drive.mass,
-                &of(solid::Link::Joint(i)),
-                colour,
+                inertial(drive.mass, &solids),
+                shapes(of_colour(&solids, colour)),
             )
         };
         let joint_frame = drive.frame(&before, frame);
         model.joints.push(Joint {
-            name: names.take(&format!("{}_joint", drive.joint)),
+            name: names.take(format!("{}_joint", drive.joint)),
             kind: drive.kind(),
             child: link.name.clone(),
             relative_to: parent.clone(),
@@ -148,33 +148,38 @@ pub fn model(name: String, machine: &Machine, kinematics: &Arm, lanes: &[Solid],
 }
 
 /// The gripper is a link of its own, which simulators attach parts to.
-fn gripper(model: &mut Model, names: &mut Names, solids: &[Solid]) {
+fn gripper(model: &mut Model, names: &mut Scope, solids: &[Solid]) {
     let Some(wrist) = model.links.last().map(|link| link.name.clone()) else { return };
     let solids: Vec<Solid> = solids.iter().filter(|s| s.grips).cloned().collect();
     let gripper = Link {
         relative_to: Some(wrist.clone()),
         is_weightless: true,
-        ..link(names.take("vacuum_gripper_link"), &Pose::IDENTITY, GRIPPER_MASS, &solids, GRIPPER_COLOUR)
+        ..link(
+            names.take("vacuum_gripper_link".into()),
+            &Pose::IDENTITY,
+            inertial(GRIPPER_MASS, &solids),
+            shapes(of_colour(&solids, GRIPPER_COLOUR)),
+        )
     };
-    model.joints.push(fixed(names.take("vacuum_gripper_joint"), &wrist, &gripper.name));
+    model.joints.push(fixed(names.take("vacuum_gripper_joint".into()), &wrist, &gripper.name));
     model.tool = Some(gripper.name.clone());
     model.links.push(gripper);
 }
 
-fn link(name: String, pose: &Pose, mass: f64, solids: &[Solid], colour: &'static str) -> Link {
+fn link(name: String, pose: &Pose, inertial: Inertial, shapes: Vec<Shape>) -> Link {
     Link {
         name,
         relative_to: None,
         pose: number::pose(pose),
         is_weightless: false,
-        inertial: Some(inertial(mass, solids)),
-        shapes: shapes(solids.iter().map(|solid| (solid, of_colour(colour)))),
+        inertial: Some(inertial),
+        shapes,
         sensor: None,
     }
 }
 
-fn of_colour(colour: &str) -> Surface<'_> {
-    Surface { colour, friction: None }
+fn of_colour<'a>(solids: &'a [Solid], colour: &'a str) -> impl Iterator<Item = (&'a Solid, Surface<'a>)> {
+    solids.iter().map(move |solid| (solid, Surface { colour, friction: None }))
 }
 
 /// At the origin of its child.

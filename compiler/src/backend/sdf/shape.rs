@@ -1,7 +1,7 @@
 //! Solids as shapes of SDF 1.7, which has no capsule: a cylinder with a ball on either end takes the same room.
 
-use super::names::Names;
 use super::number;
+use crate::naming::Scope;
 use askama::Template;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::point::Point;
@@ -33,13 +33,13 @@ pub struct Surface<'a> {
 
 /// The shapes of solids, in the frame of their link. Each has a name of its own: that of its solid, if possible.
 pub fn shapes<'a>(solids: impl IntoIterator<Item = (&'a solid::Solid, Surface<'a>)>) -> Vec<Shape> {
-    let mut names = Names::default();
-    let named = solids.into_iter().map(|(solid, surface)| (names.take(&solid.name), solid, surface));
+    let mut names = Scope::default();
+    let named = solids.into_iter().map(|(solid, surface)| (names.take(solid.name.clone()), solid, surface));
     let named: Vec<_> = named.collect();
     named.into_iter().flat_map(|(name, solid, surface)| of_solid(name, solid, surface, &mut names)).collect()
 }
 
-fn of_solid(name: String, solid: &solid::Solid, surface: Surface, names: &mut Names) -> Vec<Shape> {
+fn of_solid(name: String, solid: &solid::Solid, surface: Surface, names: &mut Scope) -> Vec<Shape> {
     let shape = |name: String, pose: &Pose, geometry: String| Shape {
         name,
         pose: number::pose(pose),
@@ -57,7 +57,7 @@ fn of_solid(name: String, solid: &solid::Solid, surface: Surface, names: &mut Na
                 number::length(radius),
                 number::length(length)
             );
-            let [lower, upper] = ["lower", "upper"].map(|end| names.take(&format!("{name}_{end}_end")));
+            let [lower, upper] = ["lower", "upper"].map(|end| names.take(format!("{name}_{end}_end")));
             vec![
                 shape(name, &solid.pose, tube),
                 shape(lower, &end(-length / 2.0), ball.clone()),
