@@ -398,13 +398,13 @@ impl UpdateKind {
 
     /// All that is evaluated, once each.
     pub fn exprs(&self) -> Vec<&Expr> {
-        let of_target = self.target().map(|target| target.place.parts()).unwrap_or_default();
-        let of_value = match self {
-            Self::Assign { value, .. } | Self::Fill { value, .. } => vec![value],
-            Self::Copy { source, .. } => source.parts(),
-            Self::Command { arguments, .. } => arguments.iter().map(|argument| &argument.value).collect(),
-        };
-        [of_target, of_value].concat()
+        let mut all: Vec<&Expr> = self.target().into_iter().flat_map(|target| target.place.parts()).collect();
+        match self {
+            Self::Assign { value, .. } | Self::Fill { value, .. } => all.push(value),
+            Self::Copy { source, .. } => all.extend(source.parts()),
+            Self::Command { arguments, .. } => all.extend(arguments.iter().map(|argument| &argument.value)),
+        }
+        all
     }
 }
 

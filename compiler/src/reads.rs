@@ -160,11 +160,11 @@ impl<'a> Reads<'a> {
         match &update.kind {
             UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
                 self.expr(value);
-                target.place.parts().into_iter().for_each(|part| self.expr(part));
+                target.place.parts().for_each(|part| self.expr(part));
             }
             UpdateKind::Copy { target, source, .. } => {
                 self.place(source);
-                target.place.parts().into_iter().for_each(|part| self.expr(part));
+                target.place.parts().for_each(|part| self.expr(part));
             }
             UpdateKind::Command { arguments, .. } => {
                 arguments.iter().for_each(|argument| self.expr(&argument.value));
@@ -209,7 +209,7 @@ impl<'a> Reads<'a> {
                 self.domain(domain);
                 self.expr(body);
             }
-            _ => expr.parts().into_iter().for_each(|part| self.expr(part)),
+            _ => expr.parts().for_each(|part| self.expr(part)),
         }
     }
 
@@ -234,7 +234,7 @@ impl<'a> Reads<'a> {
             }
             Place::Local { .. } | Place::Parameter { .. } | Place::Shown { .. } => {}
         }
-        place.parts().into_iter().for_each(|part| self.expr(part));
+        place.parts().for_each(|part| self.expr(part));
     }
 
     /// Numbers that change while something moves, and the conditions under which they are read; not those that are also
@@ -280,7 +280,7 @@ pub fn is_fixed(automaton: &Automaton, expr: &Expr) -> bool {
         | ExprKind::Min(..)
         | ExprKind::Max(..)
         | ExprKind::Absolute(_)
-        | ExprKind::ToReal(_) => expr.parts().into_iter().all(|part| is_fixed(automaton, part)),
+        | ExprKind::ToReal(_) => expr.parts().all(|part| is_fixed(automaton, part)),
         _ => false,
     }
 }

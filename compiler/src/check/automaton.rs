@@ -111,7 +111,7 @@ fn reads_changing(automaton: &ir::Automaton, expr: &ir::Expr, seen: &mut BTreeSe
         Kind::After(_) | Kind::Done | Kind::Failed => true,
         _ => false,
     };
-    changes || expr.parts().iter().any(|part| reads_changing(automaton, part, seen))
+    changes || expr.parts().any(|part| reads_changing(automaton, part, seen))
 }
 
 impl Context<'_, '_> {

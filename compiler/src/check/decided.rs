@@ -83,7 +83,7 @@ impl Context<'_, '_> {
             | ExprKind::Absolute(_)
             | ExprKind::Min(..)
             | ExprKind::Max(..)
-            | ExprKind::Binary(..) => expr.parts().into_iter().all(|part| self.is_fixed(part)),
+            | ExprKind::Binary(..) => expr.parts().all(|part| self.is_fixed(part)),
             _ => false,
         }
     }

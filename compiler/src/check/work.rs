@@ -75,7 +75,7 @@ impl<'a> Work<'a> {
             | ExprKind::Sum { variable, domain, body } => {
                 self.size(*variable, domain).saturating_mul(self.of(body)).saturating_add(1)
             }
-            _ => expr.parts().into_iter().fold(1, |sum, part| sum.saturating_add(self.of(part))),
+            _ => expr.parts().fold(1, |sum, part| sum.saturating_add(self.of(part))),
         }
     }
 

@@ -33,7 +33,7 @@ impl Executor<'_> {
     /// Whether all elements exist that a fixed expression reads for an instance: those of one that is never evaluated,
     /// because a condition before it does not hold, may not.
     pub fn can_evaluate(&mut self, robot: usize, expr: &Expr) -> bool {
-        expr.parts().into_iter().all(|part| self.can_evaluate(robot, part))
+        expr.parts().all(|part| self.can_evaluate(robot, part))
             && match &expr.kind {
                 ExprKind::Define(define) => {
                     let system = self.system;

@@ -9,7 +9,7 @@ use crate::ir::{
 use runtime_sim::line::Line;
 use runtime_sim::part::Primitive;
 use runtime_sim::wiring::Source;
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
@@ -47,12 +47,42 @@ impl Bound {
     }
 }
 
-/// What one update writes into a cell.
-pub struct Written {
-    /// The members whose cell it may be.
-    rows: Vec<usize>,
-    /// None: that is not known.
-    regions: Option<Vec<Region>>,
+/// What updates write into a cell.
+struct Written {
+    /// By update; none where that is not known.
+    regions: Vec<Option<Vec<Region>>>,
+    /// By member: the updates of its cell, in ascending order, but for those of any.
+    of: Vec<Vec<usize>>,
+    /// The updates of the cell of any member, in ascending order.
+    of_any: Vec<usize>,
+    /// Into the cells of all members together.
+    whole: OnceCell<Option<Vec<Region>>>,
+}
+
+impl Written {
+    /// Where updates, by their numbers, in ascending order, may write.
+    fn together(&self, updates: impl IntoIterator<Item = usize>) -> Option<Vec<Region>> {
+        let mut all = Few::default();
+        for update in updates {
+            all.extend(self.regions[update].as_ref()?.iter().copied());
+        }
+        Some(all.regions)
+    }
+
+    /// Into the cells of these members, which differ.
+    fn of_members(&self, rows: &[usize]) -> Option<Vec<Region>> {
+        if rows.is_empty() {
+            return Some(Vec::new());
+        }
+        if rows.len() == self.of.len() {
+            return self.whole.get_or_init(|| self.together(0..self.regions.len())).clone();
+        }
+        let mut updates = self.of_any.clone();
+        rows.iter().for_each(|row| updates.extend(&self.of[*row]));
+        updates.sort_unstable();
+        updates.dedup();
+        self.together(updates)
+    }
 }
 
 /// A cell, and how deep it was asked for.
@@ -64,7 +94,7 @@ type Shown = (InterfaceId, usize, Option<[u64; 2]>);
 /// What is the same for whoever asks.
 #[derive(Default)]
 struct Known {
-    written: RefCell<HashMap<Cell, Rc<Vec<Written>>>>,
+    written: RefCell<HashMap<Cell, Rc<Written>>>,
     shown: RefCell<HashMap<Shown, Vec<Region>>>,
 }
 
@@ -200,34 +230,32 @@ impl<'a> Regions<'a> {
 
     /// All that anybody writes into a cell of these members.
     fn written(&self, interface: InterfaceId, cell: usize, rows: &[usize]) -> Option<Vec<Region>> {
-        let inner = self.deeper()?;
-        let mut is_asked = vec![false; self.system.members[interface.0].len()];
-        rows.iter().for_each(|row| is_asked[*row] = true);
-        let mut all = Few::default();
-        for written in inner.all_written(interface, cell).iter() {
-            if written.rows.iter().any(|row| is_asked[*row]) {
-                all.extend(written.regions.as_ref()?.iter().copied());
-            }
-        }
-        Some(all.regions)
+        self.deeper()?.all_written(interface, cell).of_members(rows)
     }
 
     /// All that anybody writes into a cell of any member: whoever asks, it is the same.
-    fn all_written(&self, interface: InterfaceId, cell: usize) -> Rc<Vec<Written>> {
+    fn all_written(&self, interface: InterfaceId, cell: usize) -> Rc<Written> {
         let key = (interface, cell, self.depth);
         if let Some(known) = self.known.written.borrow().get(&key) {
             return known.clone();
         }
         let unbound = Bound::default();
-        let written = self.writers.of(interface, cell).map(|(instance, write)| {
+        let members = self.system.members[interface.0].len();
+        let (mut regions, mut of, mut of_any) = (Vec::new(), vec![Vec::new(); members], Vec::new());
+        for (instance, write) in self.writers.of(interface, cell) {
             let here = Regions { instance, bound: &unbound, transition: write.transition, ..*self };
             let rows = match write.of {
                 Some(of) => here.rows(of),
                 None => here.own(interface).into_iter().collect(),
             };
-            Written { rows, regions: write.value.and_then(|value| here.points(value)) }
-        });
-        let written: Rc<Vec<Written>> = Rc::new(written.collect());
+            match rows.len() {
+                0 => continue,
+                all if all == members => of_any.push(regions.len()),
+                _ => rows.iter().for_each(|row| of[*row].push(regions.len())),
+            }
+            regions.push(write.value.and_then(|value| here.points(value)));
+        }
+        let written = Rc::new(Written { regions, of, of_any, whole: OnceCell::new() });
         self.known.written.borrow_mut().insert(key, written.clone());
         written
     }

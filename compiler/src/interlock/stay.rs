@@ -295,7 +295,8 @@ pub(super) fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>>
     let Given { system, line, .. } = *given;
     let automaton = system.automaton_of(instance);
     let machine = &line.machines[instance];
-    let of_tool = of_tool(automaton, machine);
+    let tools = tools(automaton, machine);
+    let asks_tool = (!tools.is_empty()).then(|| asks_tool(automaton, &tools));
     let mut motions = Vec::new();
     for (state, transition) in
         automaton.states.iter().enumerate().flat_map(|(n, s)| s.transitions.iter().map(move |t| (n, t)))
@@ -331,12 +332,9 @@ pub(super) fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>>
                 _ => vec![points.map(|point| (point, Facing::Down)).collect()],
             };
             // Up from where it is, or the like: it stays about there.
-            let asks_tool = Asking::new(automaton, |kind| match kind {
-                ExprKind::Read(Place::Local { local, .. }) => of_tool.contains(local),
-                kind => is_tool(automaton, machine, kind),
-            });
+            let stays = |goal: &Expr| asks_tool.as_ref().is_some_and(|asks| asks.expression(goal));
             for goals in turned {
-                if !goals.is_empty() && !goals.iter().any(|(goal, _)| asks_tool.expression(goal)) {
+                if !goals.is_empty() && !goals.iter().any(|(goal, _)| stays(goal)) {
                     let mut named = BTreeSet::new();
                     goals.iter().for_each(|(goal, _)| names(automaton, goal, &mut named));
                     motions.push(Motion { state, transition, place: update.place, goals, named });
@@ -354,30 +352,40 @@ fn turns(span: Option<region::Span>) -> Vec<f64> {
     (0..=steps as u32).map(|step| low + (high - low) * f64::from(step) / steps.max(1.0)).collect()
 }
 
-/// Locals that keep where the machine was.
-fn of_tool(automaton: &Automaton, machine: &Machine) -> BTreeSet<usize> {
-    let asks_tool = Asking::new(automaton, |kind| is_tool(automaton, machine, kind));
+/// Expressions that read where the machine is by one of these ports, or a local that keeps where it was.
+fn asks_tool(automaton: &Automaton, tools: &[usize]) -> Asking<impl Fn(&ExprKind) -> bool> {
+    let is_tool =
+        |kind: &ExprKind| matches!(kind, ExprKind::Read(Place::Port { port, .. }) if tools.contains(port));
+    let asks = Asking::new(automaton, is_tool);
     let transitions = automaton.states.iter().flat_map(|state| &state.transitions);
     let kept =
         transitions.flat_map(|transition| &transition.updates).filter_map(|update| match &update.kind {
-            UpdateKind::Assign { target, value, .. } if asks_tool.expression(value) => match target.place {
+            UpdateKind::Assign { target, value, .. } if asks.expression(value) => match target.place {
                 Place::Local { local, .. } => Some(local),
                 _ => None,
             },
             _ => None,
         });
-    kept.collect()
+    let kept: BTreeSet<usize> = kept.collect();
+    Asking::new(automaton, move |kind| match kind {
+        ExprKind::Read(Place::Local { local, .. }) => kept.contains(local),
+        kind => is_tool(kind),
+    })
 }
 
-/// Whether an expression reads where the machine is.
-fn is_tool(automaton: &Automaton, machine: &Machine, kind: &ExprKind) -> bool {
-    let ExprKind::Read(Place::Port { port, .. }) = kind else { return false };
-    let ports = &automaton.device.ports;
-    let inputs = ports[..*port].iter().filter(|port| port.direction == Direction::Input).count();
-    let input = machine.wiring.inputs.get(inputs).filter(|_| ports[*port].direction == Direction::Input);
-    let Some(Source::Signal { part, signal }) = input.map(|input| input.source) else { return false };
-    machine.parts[part].schema().name == "chain"
-        && machine.parts[part].schema().signals[signal].name == "tool"
+/// The ports that show where the machine is.
+fn tools(automaton: &Automaton, machine: &Machine) -> Vec<usize> {
+    let is_tool = |source: &Source| match *source {
+        Source::Signal { part, signal } => {
+            let schema = machine.parts[part].schema();
+            schema.name == "chain" && schema.signals[signal].name == "tool"
+        }
+        _ => false,
+    };
+    let ports = automaton.device.ports.iter().enumerate();
+    let inputs = ports.filter(|(_, port)| port.direction == Direction::Input);
+    let shown = inputs.zip(&machine.wiring.inputs).filter(|(_, input)| is_tool(&input.source));
+    shown.map(|((port, _), _)| port).collect()
 }
 
 fn names(automaton: &Automaton, expr: &Expr, found: &mut BTreeSet<usize>) {
@@ -386,7 +394,7 @@ fn names(automaton: &Automaton, expr: &Expr, found: &mut BTreeSet<usize>) {
         ExprKind::Read(Place::Local { local, .. }) if matches!(expr.ty, Scalar::Ref(_)) => {
             found.insert(*local);
         }
-        _ => expr.parts().into_iter().for_each(|part| names(automaton, part, found)),
+        _ => expr.parts().for_each(|part| names(automaton, part, found)),
     }
 }
 

@@ -22,7 +22,7 @@ impl<F: Fn(&ExprKind) -> bool> Asking<F> {
     pub fn expression(&self, expr: &Expr) -> bool {
         match &expr.kind {
             ExprKind::Define(define) => self.defines.get(*define).is_some_and(|asks| *asks),
-            kind => (self.is_wanted)(kind) || expr.parts().into_iter().any(|part| self.expression(part)),
+            kind => (self.is_wanted)(kind) || expr.parts().any(|part| self.expression(part)),
         }
     }
 

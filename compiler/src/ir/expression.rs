@@ -105,9 +105,9 @@ pub enum ExprKind {
 
 impl Expr {
     /// The expressions of which this one directly consists, those of places and domains included.
-    pub fn parts(&self) -> Vec<&Expr> {
+    pub fn parts(&self) -> impl Iterator<Item = &Expr> {
         use ExprKind as Kind;
-        match &self.kind {
+        let parts = match &self.kind {
             Kind::Constant(_)
             | Kind::Variable(_)
             | Kind::Define(_)
@@ -117,8 +117,11 @@ impl Expr {
             | Kind::Permit
             | Kind::Stopped
             | Kind::InState(_)
-            | Kind::Members(_) => Vec::new(),
-            Kind::Read(place) => place.parts(),
+            | Kind::Members(_) => [None; 3],
+            Kind::Read(place) => {
+                let [of, index] = place.pair();
+                [of, index, None]
+            }
             Kind::After(a)
             | Kind::Not(a)
             | Kind::Negate(a)
@@ -126,27 +129,33 @@ impl Expr {
             | Kind::ToReal(a)
             | Kind::IsFinite(a)
             | Kind::Coordinate(a, _)
-            | Kind::IsMember(a, _) => vec![a],
+            | Kind::IsMember(a, _) => [Some(&**a), None, None],
             Kind::Binary(_, a, b)
             | Kind::Min(a, b)
             | Kind::Max(a, b)
             | Kind::SquaredDistance(a, b)
-            | Kind::Reaches(_, a, b) => vec![a, b],
-            Kind::MakePoint(parts) => parts.iter().collect(),
+            | Kind::Reaches(_, a, b) => [Some(&**a), Some(&**b), None],
+            Kind::MakePoint(parts) => parts.each_ref().map(Some),
             Kind::Exists { domain, body, .. }
             | Kind::Forall { domain, body, .. }
             | Kind::Count { domain, body, .. }
             | Kind::Sum { domain, body, .. } => match &**domain {
-                Domain::Range(low, high) => vec![low, high, body],
-                Domain::Role(_) | Domain::Enum(_) => vec![body],
+                Domain::Range(low, high) => [Some(low), Some(high), Some(&**body)],
+                Domain::Role(_) | Domain::Enum(_) => [Some(&**body), None, None],
             },
-        }
+        };
+        parts.into_iter().flatten()
     }
 }
 
 impl Place {
     /// The expressions that say which instance and which element is meant.
-    pub fn parts(&self) -> Vec<&Expr> {
+    pub fn parts(&self) -> impl Iterator<Item = &Expr> {
+        self.pair().into_iter().flatten()
+    }
+
+    /// The instance and the element.
+    fn pair(&self) -> [Option<&Expr>; 2] {
         let (of, index) = match self {
             Place::Local { index, .. } | Place::Port { index, .. } | Place::Parameter { index, .. } => {
                 (None, index)
@@ -154,6 +163,6 @@ impl Place {
             Place::Cell { of, index, .. } => (of.as_ref(), index),
             Place::Shown { of, index, .. } => (Some(of), index),
         };
-        of.into_iter().chain(index).map(|e| &**e).collect()
+        [of.map(|of| &**of), index.as_deref()]
     }
 }

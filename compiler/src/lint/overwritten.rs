@@ -40,7 +40,7 @@ fn overwriting<'a>(automaton: &Automaton, update: &Update, later: &'a [Update]) 
         if next.kind.target().is_some_and(|target| target.place == *written) {
             return Some(next);
         }
-        let changes = |target: &Place| written.parts().into_iter().any(|part| asks(automaton, part, target));
+        let changes = |target: &Place| written.parts().any(|part| asks(automaton, part, target));
         if next.kind.target().is_some_and(|target| changes(&target.place)) {
             return None;
         }
@@ -49,14 +49,8 @@ fn overwriting<'a>(automaton: &Automaton, update: &Update, later: &'a [Update]) 
 }
 
 fn reads(automaton: &Automaton, update: &UpdateKind, place: &Place) -> bool {
-    let target = update.target().map(|target| target.place.parts()).unwrap_or_default();
-    let values: Vec<&Expr> = match update {
-        UpdateKind::Assign { value, .. } | UpdateKind::Fill { value, .. } => vec![value],
-        UpdateKind::Copy { source, .. } if is_same_variable(source, place) => return true,
-        UpdateKind::Copy { source, .. } => source.parts(),
-        UpdateKind::Command { arguments, .. } => arguments.iter().map(|argument| &argument.value).collect(),
-    };
-    target.into_iter().chain(values).any(|expr| asks(automaton, expr, place))
+    let is_copied = matches!(update, UpdateKind::Copy { source, .. } if is_same_variable(source, place));
+    is_copied || update.exprs().into_iter().any(|expr| asks(automaton, expr, place))
 }
 
 /// Through definitions too.
@@ -64,7 +58,7 @@ fn asks(automaton: &Automaton, expr: &Expr, place: &Place) -> bool {
     match &expr.kind {
         ExprKind::Define(define) => asks(automaton, &automaton.defines[*define].value, place),
         ExprKind::Read(read) if is_same_variable(read, place) => true,
-        _ => expr.parts().into_iter().any(|part| asks(automaton, part, place)),
+        _ => expr.parts().any(|part| asks(automaton, part, place)),
     }
 }
 

@@ -171,7 +171,7 @@ impl Uses {
                     _ => None,
                 };
                 match first.is_some() && constant(automaton, value) == first {
-                    true => target.place.parts().into_iter().for_each(|part| self.expr(part)),
+                    true => target.place.parts().for_each(|part| self.expr(part)),
                     false => self.write(&target.place),
                 }
                 self.value(value, &target.place);
@@ -209,7 +209,7 @@ impl Uses {
             | ExprKind::Sum { domain, .. } => self.domain(domain),
             _ => {}
         }
-        expr.parts().into_iter().for_each(|part| self.expr(part));
+        expr.parts().for_each(|part| self.expr(part));
     }
 
     fn domain(&mut self, domain: &Domain) {
@@ -220,12 +220,12 @@ impl Uses {
 
     fn read(&mut self, place: &Place) {
         self.read.extend(variable(place));
-        place.parts().into_iter().for_each(|part| self.expr(part));
+        place.parts().for_each(|part| self.expr(part));
     }
 
     fn write(&mut self, place: &Place) {
         self.written.extend(variable(place));
-        place.parts().into_iter().for_each(|part| self.expr(part));
+        place.parts().for_each(|part| self.expr(part));
     }
 }
 

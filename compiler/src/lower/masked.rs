@@ -27,5 +27,5 @@ fn ports(automaton: &Automaton, expr: &Expr, read: &mut BTreeSet<usize>) {
         ExprKind::Define(define) => ports(automaton, &automaton.defines[*define].value, read),
         _ => {}
     }
-    expr.parts().into_iter().for_each(|part| ports(automaton, part, read));
+    expr.parts().for_each(|part| ports(automaton, part, read));
 }

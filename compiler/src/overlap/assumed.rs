@@ -449,7 +449,7 @@ impl Numbers<'_> {
                     self.collect(&automaton.defines[*define].value);
                 }
             }
-            _ => expr.parts().into_iter().for_each(|part| self.collect(part)),
+            _ => expr.parts().for_each(|part| self.collect(part)),
         }
     }
 }

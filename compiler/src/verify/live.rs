@@ -115,21 +115,21 @@ impl Uses<'_> {
                 if let Place::Local { local, index: None } = &target.place {
                     live.remove(&Remembers::Local(*local));
                 }
-                target.place.parts().into_iter().for_each(|part| self.expr(part, live));
+                target.place.parts().for_each(|part| self.expr(part, live));
                 self.expr(value, live);
             }
             UpdateKind::Fill { target, value, .. } => {
                 if let Place::Local { local, .. } = &target.place {
                     live.remove(&Remembers::Local(*local));
                 }
-                target.place.parts().into_iter().for_each(|part| self.expr(part, live));
+                target.place.parts().for_each(|part| self.expr(part, live));
                 self.expr(value, live);
             }
             UpdateKind::Copy { target, source, .. } => {
                 if let Place::Local { local, .. } = &target.place {
                     live.remove(&Remembers::Local(*local));
                 }
-                target.place.parts().into_iter().for_each(|part| self.expr(part, live));
+                target.place.parts().for_each(|part| self.expr(part, live));
                 self.place(source, live);
             }
             UpdateKind::Command { verb, arguments } => {
@@ -162,7 +162,7 @@ impl Uses<'_> {
             }
             ExprKind::Define(define) => self.expr(&self.automaton.defines[*define].value, live),
             ExprKind::Read(read) => self.place(read, live),
-            _ => of.parts().into_iter().for_each(|part| self.expr(part, live)),
+            _ => of.parts().for_each(|part| self.expr(part, live)),
         }
     }
 
@@ -182,6 +182,6 @@ impl Uses<'_> {
             }
             Place::Port { .. } | Place::Cell { .. } | Place::Parameter { .. } | Place::Shown { .. } => {}
         }
-        read.parts().into_iter().for_each(|part| self.expr(part, live));
+        read.parts().for_each(|part| self.expr(part, live));
     }
 }

@@ -234,18 +234,18 @@ fn reads_error(automaton: &Automaton, asked: &Asked) -> bool {
 fn reads_port(automaton: &Automaton, port: usize, asked: &Asked) -> bool {
     fn reads(expr: &Expr, port: usize) -> bool {
         let here = matches!(&expr.kind, ExprKind::Read(Place::Port { port: p, .. }) if *p == port);
-        here || expr.parts().into_iter().any(|part| reads(part, port))
+        here || expr.parts().any(|part| reads(part, port))
     }
     let place = |place: &Place| {
         matches!(place, Place::Port { port: p, .. } if *p == port)
-            || place.parts().into_iter().any(|part| reads(part, port))
+            || place.parts().any(|part| reads(part, port))
     };
     let update = |update: &UpdateKind| match update {
         UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
-            reads(value, port) || target.place.parts().into_iter().any(|part| reads(part, port))
+            reads(value, port) || target.place.parts().any(|part| reads(part, port))
         }
         UpdateKind::Copy { target, source, .. } => {
-            place(source) || target.place.parts().into_iter().any(|part| reads(part, port))
+            place(source) || target.place.parts().any(|part| reads(part, port))
         }
         UpdateKind::Command { arguments, .. } => arguments.iter().any(|a| reads(&a.value, port)),
     };

@@ -194,7 +194,7 @@ impl Instance<'_> {
             ExprKind::Read(Place::Port { port, .. }) => self.automaton.masked.contains(port),
             _ => false,
         };
-        own || expr.parts().into_iter().any(|part| self.reads_masked(part))
+        own || expr.parts().any(|part| self.reads_masked(part))
     }
 
     /// The cells that an expression reads.
@@ -206,6 +206,6 @@ impl Instance<'_> {
             }
             _ => Cells::default(),
         };
-        expr.parts().into_iter().fold(own, |all, part| all | self.cells_of(part))
+        expr.parts().fold(own, |all, part| all | self.cells_of(part))
     }
 }

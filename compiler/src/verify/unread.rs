@@ -139,7 +139,7 @@ fn awaited(line: &Line, asked: &Asked, owner: usize) -> BTreeSet<Kind> {
             }
             _ => {}
         }
-        expr.parts().into_iter().for_each(|part| add(automaton, part, is_own, found));
+        expr.parts().for_each(|part| add(automaton, part, is_own, found));
     }
     let mut found = BTreeSet::new();
     for automaton in &line.system.model.automata {

@@ -78,12 +78,12 @@ impl<'a> Look<'_, 'a> {
                     self.collect(body, holds, found);
                 }
             }
-            _ => expr.parts().into_iter().for_each(|part| self.collect(part, holds, found)),
+            _ => expr.parts().for_each(|part| self.collect(part, holds, found)),
         }
     }
 
     fn read(&mut self, place: &'a Place, ty: Scalar, holds: bool, found: &mut Vec<Read>) {
-        place.parts().into_iter().for_each(|part| self.collect(part, holds, found));
+        place.parts().for_each(|part| self.collect(part, holds, found));
         let Some(element) = self.element(place) else { return };
         let read = self.value(element, ty);
         match element {

@@ -2,6 +2,7 @@
 
 use super::body::{Ball, Piece, Placed};
 use super::bounds::BoundingBox;
+use super::sweep::Sweep;
 use crate::frame::Frame;
 use crate::kinematics::facing::Facing;
 use crate::kinematics::pose::Pose;
@@ -12,6 +13,7 @@ use crate::part::lane::CentreLine;
 use crate::point::{Axis, Point};
 use crate::solid::{Link, Shape, Solid};
 use std::cell::OnceCell;
+use std::collections::HashMap;
 
 /// A conveyor or a place, and the first vehicle that drives through it.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,31 +39,60 @@ const MOST_STEPS: f64 = 2000.0;
 /// One for each surface, in the order of the machines; none of what a cylinder or a positioner moves, of pairs that may
 /// touch, and of machines with a body that is hit too, because a run finds that contact.
 pub fn driven_through(line: &Line) -> Vec<DrivenThrough> {
-    let Vehicles { envelopes, all } = Vehicles::of(line);
-    let mut found = Vec::new();
-    for (number, machine) in line.machines.iter().enumerate().filter(|_| !all.is_empty()) {
-        let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::World);
-        let pieces = solids.map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
-        let bodies = Standing::new(pieces.map(|piece| piece.within(&Pose::IDENTITY)).collect());
-        let may_touch = |vehicle: usize| {
-            line.allows([number, vehicle].map(|machine| line.machines[machine].name.as_str()))
-        };
-        for (part, of) in machine.parts.iter().enumerate() {
-            let Some(surface) = surface(&of.primitive) else { continue };
-            let met: Vec<OnceCell<Option<(Point, &str)>>> = vec![OnceCell::new(); envelopes.len()];
-            let meets = |envelope: usize| {
-                let swept = &envelopes[envelope];
-                let through = || swept.meets(&surface).filter(|_| swept.meets(&bodies).is_none());
-                *met[envelope].get_or_init(through)
-            };
-            let mut others = all.iter().filter(|(vehicle, _)| *vehicle != number);
-            found.extend(others.find_map(|&(vehicle, envelope)| {
-                let (at, body) = meets(envelope).filter(|_| !may_touch(vehicle))?;
-                Some(DrivenThrough { vehicle, body: body.into(), machine: number, part, at })
-            }));
+    let envelopes = envelopes(line);
+    if envelopes.is_empty() {
+        return Vec::new();
+    }
+    let surfaces: Vec<Surface> =
+        line.machines.iter().enumerate().flat_map(|(number, machine)| surfaces(number, machine)).collect();
+    let swept = envelopes.iter().map(|envelope| envelope.whole);
+    let sweep = Sweep::new(swept.chain(surfaces.iter().map(|surface| surface.plates.bounds)));
+    let mut near: Vec<Vec<&Envelope>> = vec![Vec::new(); surfaces.len()];
+    for mut pair in sweep.meeting() {
+        pair.sort_unstable();
+        let [envelope, surface] = pair;
+        if envelope < envelopes.len() && surface >= envelopes.len() {
+            near[surface - envelopes.len()].push(&envelopes[envelope]);
         }
     }
-    found
+    let found = surfaces.iter().zip(near).filter_map(|(surface, near)| {
+        let machine = &line.machines[surface.machine];
+        let bodies = OnceCell::new();
+        let through = |envelope: &Envelope| {
+            let is_other = |vehicle: &&usize| {
+                let names = [surface.machine, **vehicle].map(|machine| line.machines[machine].name.as_str());
+                **vehicle != surface.machine && !line.allows(names)
+            };
+            let vehicle = *envelope.vehicles.iter().find(is_other)?;
+            let (at, body) = envelope.meets(&surface.plates)?;
+            let is_hit = envelope.meets(bodies.get_or_init(|| bodies_of(machine))).is_some();
+            let (machine, part) = (surface.machine, surface.part);
+            (!is_hit).then(|| DrivenThrough { vehicle, body: body.into(), machine, part, at })
+        };
+        near.into_iter().filter_map(through).min_by_key(|found| found.vehicle)
+    });
+    found.collect()
+}
+
+/// A conveyor or the floor of a place, and the machine that it is of.
+struct Surface {
+    machine: usize,
+    part: usize,
+    plates: Standing,
+}
+
+fn surfaces(number: usize, machine: &Machine) -> impl Iterator<Item = Surface> {
+    machine.parts.iter().enumerate().filter_map(move |(part, of)| {
+        let plates = plates(&of.primitive)?;
+        Some(Surface { machine: number, part, plates })
+    })
+}
+
+/// Those that stand where the machine stands.
+fn bodies_of(machine: &Machine) -> Standing {
+    let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::World);
+    let pieces = solids.map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
+    Standing::new(pieces.map(|piece| piece.within(&Pose::IDENTITY)).collect())
 }
 
 /// What stands still.
@@ -87,37 +118,38 @@ impl Standing {
     }
 }
 
-/// Vehicles with bodies, and what they sweep.
-struct Vehicles {
-    envelopes: Vec<Envelope>,
-    /// Number of the machine and of its envelope.
-    all: Vec<(usize, usize)>,
-}
-
-impl Vehicles {
-    fn of(line: &Line) -> Self {
-        let mut known: Vec<(Vec<Straight>, Vec<Solid>)> = Vec::new();
-        let mut all = Vec::new();
-        for (number, machine) in line.machines.iter().enumerate() {
-            let mut bodies = machine.solids();
-            bodies.retain(|solid| solid.link == Link::Route);
-            if bodies.is_empty() {
-                continue;
-            }
-            let driven = (straights(machine), bodies);
-            let envelope = known.iter().position(|known| *known == driven).unwrap_or(known.len());
-            if envelope == known.len() {
-                known.push(driven);
-            }
-            all.push((number, envelope));
+/// What vehicles with bodies pass: one for those of the same bodies that drive on the same straights.
+fn envelopes(line: &Line) -> Vec<Envelope> {
+    let mut envelopes: Vec<Envelope> = Vec::new();
+    // By the straights: bodies, and the number of the envelope.
+    let mut known: HashMap<Vec<u64>, Vec<(Vec<Solid>, usize)>> = HashMap::new();
+    for (number, machine) in line.machines.iter().enumerate() {
+        let mut bodies = machine.solids();
+        bodies.retain(|solid| solid.link == Link::Route);
+        if bodies.is_empty() {
+            continue;
         }
-        let envelopes = known.into_iter().map(|(straights, solids)| Envelope::new(straights, solids));
-        Self { envelopes: envelopes.collect(), all }
+        let straights = straights(machine);
+        let bits = |(yaw, ends): &Straight| {
+            let [from, to] = ends.map(|end| [end.x, end.y, end.z]);
+            [*yaw].into_iter().chain(from).chain(to).map(f64::to_bits)
+        };
+        let alike = known.entry(straights.iter().flat_map(bits).collect()).or_default();
+        match alike.iter().find(|(known, _)| *known == bodies) {
+            Some((_, envelope)) => envelopes[*envelope].vehicles.push(number),
+            None => {
+                alike.push((bodies.clone(), envelopes.len()));
+                envelopes.push(Envelope::new(number, straights, bodies));
+            }
+        }
     }
+    envelopes
 }
 
-/// What vehicles of the same bodies pass that drive on the same straights.
+/// What vehicles pass.
 struct Envelope {
+    /// Numbers of the machines, ascending.
+    vehicles: Vec<usize>,
     bodies: Vec<Piece>,
     /// No point of a body is farther from the position of the vehicle, m.
     reach: f64,
@@ -142,7 +174,7 @@ struct Segment {
 }
 
 impl Envelope {
-    fn new(straights: Vec<Straight>, solids: Vec<Solid>) -> Self {
+    fn new(vehicle: usize, straights: Vec<Straight>, solids: Vec<Solid>) -> Self {
         let bodies = solids.into_iter().map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
         let bodies: Vec<Piece> = bodies.collect();
         let reach = bodies.iter().map(|body| body.ball().middle.length() + body.ball().radius);
@@ -154,7 +186,7 @@ impl Envelope {
         let axis = if length(&whole, Axis::X) >= length(&whole, Axis::Y) { Axis::X } else { Axis::Y };
         segments.sort_by(|a, b| a.bounds.along(axis)[0].total_cmp(&b.bounds.along(axis)[0]));
         let longest = segments.iter().map(|segment| length(&segment.bounds, axis)).fold(0.0, f64::max);
-        Self { bodies, reach, segments, axis, longest, whole }
+        Self { vehicles: vec![vehicle], bodies, reach, segments, axis, longest, whole }
     }
 
     /// Where the vehicle is when one of its bodies meets something that stands, and the name of the body.
@@ -217,7 +249,7 @@ fn segment(bodies: &[Piece], yaw: f64, [from, to]: [Point; 2]) -> Segment {
 }
 
 /// The surface of a conveyor or of the floor of a place, as plates under it; none of one that is moved.
-fn surface(primitive: &Primitive) -> Option<Standing> {
+fn plates(primitive: &Primitive) -> Option<Standing> {
     let plate = |frame: Frame, length: f64, width: f64| {
         let middle = frame.point(Point::new(0.0, 0.0, -PLATE / 2.0));
         let shape = Shape::Box { size: Point::new(length, width, PLATE) };

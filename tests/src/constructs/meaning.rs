@@ -166,7 +166,7 @@ impl<'a> Names<'a> {
     fn target(&mut self, word: &str, target: &Target) {
         let place = self.place(&target.place);
         self.add(format!("{word}: to {place}"));
-        target.place.parts().iter().for_each(|e| self.expr(e));
+        target.place.parts().for_each(|e| self.expr(e));
     }
 
     fn place(&self, place: &Place) -> String {
@@ -243,7 +243,7 @@ impl<'a> Names<'a> {
             Kind::Reaches(..) => "reaches".into(),
         };
         self.add(name);
-        expr.parts().into_iter().for_each(|part| self.expr(part));
+        expr.parts().for_each(|part| self.expr(part));
     }
 }
 

@@ -572,7 +572,7 @@ fn is_plain(expr: &Expr) -> bool {
             | ExprKind::IsMember(..)
             | ExprKind::Define(_)
     );
-    !is_loop && expr.parts().into_iter().all(is_plain)
+    !is_loop && expr.parts().all(is_plain)
 }
 
 /// Nothing if there is nothing to be done.

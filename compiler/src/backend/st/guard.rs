@@ -4,7 +4,6 @@ use super::code::{Ex, Stmt, and, assign, binary, name, not, or, when};
 use super::context::{Lowering, Phase};
 use super::declaration::Basic;
 use super::expression::conjuncts;
-use super::walk::update_parts;
 use crate::ir::{Binder, Clause, Expr, Transition, Update, VariableId};
 use std::collections::BTreeSet;
 
@@ -141,7 +140,7 @@ fn bound(clause: &Clause) -> Option<VariableId> {
 fn variables_of(updates: &[Update]) -> BTreeSet<VariableId> {
     let mut found = BTreeSet::new();
     for update in updates {
-        update_parts(&update.kind).into_iter().for_each(|part| variables_in(part, &mut found));
+        update.kind.exprs().into_iter().for_each(|part| variables_in(part, &mut found));
     }
     found
 }
@@ -150,5 +149,5 @@ fn variables_in(expr: &Expr, found: &mut BTreeSet<VariableId>) {
     if let crate::ir::ExprKind::Variable(id) = expr.kind {
         found.insert(id);
     }
-    expr.parts().into_iter().for_each(|part| variables_in(part, found));
+    expr.parts().for_each(|part| variables_in(part, found));
 }

@@ -419,7 +419,7 @@ fn own(expr: &Expr, owner: usize, owners: &mut [usize]) {
             own(high, owner, owners);
         }
     }
-    expr.parts().into_iter().for_each(|part| own(part, owner, owners));
+    expr.parts().for_each(|part| own(part, owner, owners));
 }
 
 /// `tables` are the arrays that all robots of its type have alike, `members` those of its type's roles.

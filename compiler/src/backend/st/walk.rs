@@ -1,8 +1,6 @@
 //! What expressions need: defines that they read, and whether they may be computed where no guard protects them.
 
-use crate::ir::{
-    Automaton, Domain, Expr, ExprKind, Model, Operator, Place, Scalar, Type, UpdateKind, Value, VariableId,
-};
+use crate::ir::{Automaton, Domain, Expr, ExprKind, Model, Operator, Place, Scalar, Type, Value, VariableId};
 use crate::layout::read::MOST_OBJECTS;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +10,7 @@ pub fn is_for_guards_only(automaton: &Automaton, define: usize) -> bool {
     for state in &automaton.states {
         state.within.iter().for_each(|(longest, _)| defines(automaton, longest, &mut elsewhere));
         for update in state.transitions.iter().flat_map(|t| &t.updates) {
-            update_parts(&update.kind).into_iter().for_each(|e| defines(automaton, e, &mut elsewhere));
+            update.kind.exprs().into_iter().for_each(|e| defines(automaton, e, &mut elsewhere));
         }
     }
     !elsewhere.contains(&define)
@@ -25,20 +23,7 @@ pub fn defines(automaton: &Automaton, expr: &Expr, found: &mut BTreeSet<usize>) 
     {
         defines(automaton, &automaton.defines[define].value, found);
     }
-    expr.parts().into_iter().for_each(|part| defines(automaton, part, found));
-}
-
-/// Expressions of an update: of what it writes, and what it stores.
-pub fn update_parts(update: &UpdateKind) -> Vec<&Expr> {
-    match update {
-        UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
-            target.place.parts().into_iter().chain([value]).collect()
-        }
-        UpdateKind::Copy { target, source, .. } => {
-            target.place.parts().into_iter().chain(source.parts()).collect()
-        }
-        UpdateKind::Command { arguments, .. } => arguments.iter().map(|a| &a.value).collect(),
-    }
+    expr.parts().for_each(|part| defines(automaton, part, found));
 }
 
 /// Whether an expression could index beyond an array, divide by zero, leave 32 bits or repeat more often than its bound
@@ -104,11 +89,11 @@ impl Ranges<'_> {
                     let is_body = std::ptr::eq(part, &raw const **body);
                     self.may_fault(part, if is_body { &inner } else { bound })
                 };
-                return leaves || is_longer || expr.parts().into_iter().any(in_part);
+                return leaves || is_longer || expr.parts().any(in_part);
             }
             _ => false,
         };
-        here || expr.parts().into_iter().any(|part| self.may_fault(part, bound))
+        here || expr.parts().any(|part| self.may_fault(part, bound))
     }
 
     fn index_may_leave(&self, place: &Place, bound: &Bound) -> bool {

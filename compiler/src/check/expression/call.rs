@@ -126,7 +126,8 @@ impl Context<'_, '_> {
                 (Domain::Range(whole(0), whole(last)), Scalar::Int { lo: 0, hi: last }, n)
             }
         };
-        let name = self.hidden_name("element", &[place.parts(), vec![&value]].concat());
+        let within: Vec<&Expr> = place.parts().chain([&value]).collect();
+        let name = self.hidden_name("element", &within);
         let variable = self.new_variable(&name, scalar);
         let index = Some(Box::new(Expr { ty: scalar, kind: ExprKind::Variable(variable) }));
         match &mut place {
@@ -163,5 +164,5 @@ fn quantified(expr: &Expr, found: &mut BTreeSet<VariableId>) {
     {
         found.insert(variable);
     }
-    expr.parts().into_iter().for_each(|part| quantified(part, found));
+    expr.parts().for_each(|part| quantified(part, found));
 }
