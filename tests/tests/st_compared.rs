@@ -61,8 +61,8 @@ fn coverage(job: &Job) -> Coverage {
                 run(&project.plant, beside, Stepping::EveryScan, &mut |_| {})
                     .expect("a line that can be run");
             });
-            let scans = if is_full_campaign() { 3000 } else { 1000 };
-            for seed in 1..=3 {
+            let (scans, seeds) = if is_full_campaign() { (3000, 3) } else { (1000, 1) };
+            for seed in 1..=seeds {
                 coverage.take(&text, |beside| drawn(beside, &text, Lots::powered(text.system, seed), scans));
             }
             coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, 4), scans));
@@ -75,7 +75,8 @@ fn coverage(job: &Job) -> Coverage {
             let (system, sources) = instantiate(&[file]);
             let name = name(path);
             let text = Text::new(&name, &name, &system, &sources);
-            coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, 1), 3000));
+            let scans = if is_full_campaign() { 3000 } else { 1500 };
+            coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, 1), scans));
             coverage.enter_the_rest(&text, &sources, |beside, text| {
                 drawn(beside, text, Lots::lively(text.system, 2), 300);
             });
@@ -104,7 +105,8 @@ fn coverage(job: &Job) -> Coverage {
                 let name = format!("{family}, layout {number}");
                 let text = Text::new(&name, &family, system, &made.sources);
                 let lots = Lots::lively(system, seed * 1000 + number as u64);
-                coverage.take(&text, |beside| drawn(beside, &text, lots, 1500));
+                let scans = if is_full_campaign() { 1500 } else { 750 };
+                coverage.take(&text, |beside| drawn(beside, &text, lots, scans));
                 coverage.enter_the_rest(&text, &made.sources, |beside, text| {
                     drawn(beside, text, Lots::lively(text.system, *seed), 300);
                 });
