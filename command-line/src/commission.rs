@@ -335,7 +335,7 @@ fn text(report: &Value, wall: f64, output: &Output) -> String {
     let places: Vec<String> = places.iter().map(|(place, n)| format!("{n} {place}")).collect();
     out += "\n";
     if is_ordered || !items.is_empty() {
-        out += &format!("items              {} ({})\n", items.len(), places.join(", "));
+        out += &format!("items              {} ({})\n", items.len(), listed(places, ", "));
     }
     if !is_ordered && let Some(sinks) = report["sinks"].as_object() {
         let counts = |kinds: &Value| -> Vec<String> {
@@ -343,7 +343,7 @@ fn text(report: &Value, wall: f64, output: &Output) -> String {
             kinds.map(|(kind, count)| format!("{count} {kind}")).collect()
         };
         let sinks = sinks.iter().map(|(sink, kinds)| format!("{} in {sink}", counts(kinds).join(", ")));
-        out += &format!("collected          {}\n", sinks.collect::<Vec<_>>().join("; "));
+        out += &format!("collected          {}\n", listed(sinks.collect(), "; "));
     }
     out += &alarm::text(report);
     out += &format!("written to         {}\n", output.folder().display());
@@ -352,4 +352,30 @@ fn text(report: &Value, wall: f64, output: &Output) -> String {
         waits.iter().filter_map(Value::as_str).for_each(|line| out += &format!("  {line}\n"));
     }
     out
+}
+
+/// Machines that a line of the text names.
+const MOST_LISTED: usize = 20;
+
+/// The first ones; the report has all.
+fn listed(mut parts: Vec<String>, between: &str) -> String {
+    let more = parts.len().saturating_sub(MOST_LISTED);
+    if more > 0 {
+        parts.truncate(MOST_LISTED);
+        parts.push(format!("and {more} more, in results.json"));
+    }
+    parts.join(between)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_list_ends_with_how_many_more_there_are() {
+        let all = |count: usize| (1..=count).map(|number| number.to_string()).collect::<Vec<_>>();
+        assert_eq!(listed(all(MOST_LISTED), ", "), all(MOST_LISTED).join(", "));
+        let of_more = listed(all(MOST_LISTED + 3), "; ");
+        assert_eq!(of_more, all(MOST_LISTED).join("; ") + "; and 3 more, in results.json");
+    }
 }

@@ -82,7 +82,7 @@ fn a_goal_above_the_supply() {
     assert_eq!(told("", r#""box", "box""#, r#""box": 2"#), [""; 0]);
     assert_eq!(
         told("", r#""box", "box""#, r#""box": 3"#),
-        [r#"E0138 the belts bring too few parts "box": 2 of 3 => add 1 parts "box" to "items""#]
+        [r#"E0138 the belts bring too few parts "box": 2 of 3 => add 1 part "box" to "items""#]
     );
     assert_eq!(told(maker, r#""box", "blank""#, r#""box": 2"#), [""; 0]);
     let none = told("", r#""box""#, r#""blank": 1"#);

@@ -435,12 +435,13 @@ impl<'a> Resolver<'a> {
                     }
                 };
                 let few = format!("the belts bring too few parts \"{name}\": {brought} of {needed}");
+                let parts = if needed - brought == 1 { "part" } else { "parts" };
                 collect(
                     &mut self.diagnostics,
                     Diagnostic::new("E0138", self.scenario.supply.span, few)
                         .other(place, what)
                         .note(could)
-                        .help(format!("add {} parts \"{name}\" to \"items\"", needed - brought)),
+                        .help(format!("add {} {parts} \"{name}\" to \"items\"", needed - brought)),
                 );
             }
         }
