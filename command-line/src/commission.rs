@@ -354,10 +354,10 @@ fn text(report: &Value, wall: f64, output: &Output) -> String {
     out
 }
 
-/// Machines that a line of the text names.
+/// Places that a line of the text names at most.
 const MOST_LISTED: usize = 20;
 
-/// The first ones; the report has all.
+/// The first ones; the results have all.
 fn listed(mut parts: Vec<String>, between: &str) -> String {
     let more = parts.len().saturating_sub(MOST_LISTED);
     if more > 0 {

@@ -331,7 +331,7 @@ fn every_transition_of_the_library_fires_alike() {
     }
     let silent: Vec<&String> = all.iter().filter(|(_, count)| **count == 0).map(|(name, _)| name).collect();
     println!(
-        "{} runs on {} programs, {scans} scans compared, {} differences, {} transitions, {} of them never fired, {:.1} s",
+        "{} runs on {} programs, {scans} scans executed, {} differences, {} transitions, {} of them never fired, {:.1} s",
         jobs.len(),
         programs.len(),
         different.len(),

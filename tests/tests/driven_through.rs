@@ -131,3 +131,19 @@ fn each_of_two_vehicles_on_the_same_track_is_looked_at() {
     assert_eq!(told_of(&[["v", "m"]]), through("w"));
     assert_eq!(told_of(&[["v", "m"], ["w", "m"]]), [""; 0]);
 }
+
+#[test]
+fn of_vehicles_on_two_tracks_the_first_one_is_told() {
+    // The second one comes from farther away.
+    let machine =
+        r#""type": "conv", "pose": [3, -2, 0, 90]}, {"name": "w", "type": "shuttle", "pose": [-3, 1, 0]"#;
+    let told_of = |allowed: &[&str]| {
+        let pair = |vehicle: &&str| format!(r#"{{"pair": ["{vehicle}", "m"], "reason": "a gate opens"}}"#);
+        let pairs: Vec<String> = allowed.iter().map(pair).collect();
+        told("cart", machine, &format!(r#", "may_touch": [{}]"#, pairs.join(", ")))
+    };
+    let through = |vehicle: &str| [format!("`hull` of {vehicle} drives through the lane `belt` of m")];
+    assert_eq!(told_of(&[]), through("v"));
+    assert_eq!(told_of(&["v"]), through("w"));
+    assert_eq!(told_of(&["v", "w"]), [""; 0]);
+}

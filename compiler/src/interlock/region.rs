@@ -3,7 +3,7 @@
 use super::few::{Few, around, few};
 use super::writers::Writers;
 use crate::ir::{
-    Asking, Domain, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, System, Target, Transition, Update,
+    Asking, Domain, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, System, Target, Transition,
     UpdateKind, Value,
 };
 use runtime_sim::line::Line;
@@ -47,24 +47,46 @@ impl Bound {
     }
 }
 
-/// What updates write into a cell.
+/// What one update writes into a cell.
+struct Update {
+    /// The members whose cell it may be.
+    rows: Vec<usize>,
+    /// None: that is not known.
+    regions: Option<Vec<Region>>,
+}
+
+/// What all updates of a cell write.
 struct Written {
-    /// By update; none where that is not known.
-    regions: Vec<Option<Vec<Region>>>,
-    /// By member: the updates of its cell, in ascending order, but for those of any.
-    of: Vec<Vec<usize>>,
-    /// The updates of the cell of any member, in ascending order.
+    /// Those of any member have no rows.
+    updates: Vec<Update>,
+    /// The updates of the cell of each member, ascending, without those of any.
+    by_member: Vec<Vec<usize>>,
+    /// Those of any member, ascending.
     of_any: Vec<usize>,
     /// Into the cells of all members together.
     whole: OnceCell<Option<Vec<Region>>>,
 }
 
 impl Written {
-    /// Where updates, by their numbers, in ascending order, may write.
+    /// Each update may write to some member.
+    fn new(members: usize, updates: impl Iterator<Item = Update>) -> Self {
+        let (mut all, mut by_member, mut of_any) = (Vec::new(), vec![Vec::new(); members], Vec::new());
+        for mut update in updates {
+            if update.rows.len() == members {
+                update.rows = Vec::new();
+                of_any.push(all.len());
+            }
+            update.rows.iter().for_each(|row| by_member[*row].push(all.len()));
+            all.push(update);
+        }
+        Self { updates: all, by_member, of_any, whole: OnceCell::new() }
+    }
+
+    /// Where these updates may write; they ascend.
     fn together(&self, updates: impl IntoIterator<Item = usize>) -> Option<Vec<Region>> {
         let mut all = Few::default();
         for update in updates {
-            all.extend(self.regions[update].as_ref()?.iter().copied());
+            all.extend(self.updates[update].regions.as_ref()?.iter().copied());
         }
         Some(all.regions)
     }
@@ -74,14 +96,24 @@ impl Written {
         if rows.is_empty() {
             return Some(Vec::new());
         }
-        if rows.len() == self.of.len() {
-            return self.whole.get_or_init(|| self.together(0..self.regions.len())).clone();
+        let all = 0..self.updates.len();
+        if rows.len() == self.by_member.len() {
+            return self.whole.get_or_init(|| self.together(all)).clone();
         }
-        let mut updates = self.of_any.clone();
-        rows.iter().for_each(|row| updates.extend(&self.of[*row]));
-        updates.sort_unstable();
-        updates.dedup();
-        self.together(updates)
+        let named: usize = rows.iter().map(|row| self.by_member[*row].len()).sum();
+        if named < all.len() {
+            let mut updates = self.of_any.clone();
+            rows.iter().for_each(|row| updates.extend(&self.by_member[*row]));
+            updates.sort_unstable();
+            updates.dedup();
+            return self.together(updates);
+        }
+        let mut is_asked = vec![false; self.by_member.len()];
+        rows.iter().for_each(|row| is_asked[*row] = true);
+        self.together(all.filter(|update| {
+            let rows = &self.updates[*update].rows;
+            rows.is_empty() || rows.iter().any(|row| is_asked[*row])
+        }))
     }
 }
 
@@ -240,22 +272,16 @@ impl<'a> Regions<'a> {
             return known.clone();
         }
         let unbound = Bound::default();
-        let members = self.system.members[interface.0].len();
-        let (mut regions, mut of, mut of_any) = (Vec::new(), vec![Vec::new(); members], Vec::new());
-        for (instance, write) in self.writers.of(interface, cell) {
+        let updates = self.writers.of(interface, cell).filter_map(|(instance, write)| {
             let here = Regions { instance, bound: &unbound, transition: write.transition, ..*self };
             let rows = match write.of {
                 Some(of) => here.rows(of),
                 None => here.own(interface).into_iter().collect(),
             };
-            match rows.len() {
-                0 => continue,
-                all if all == members => of_any.push(regions.len()),
-                _ => rows.iter().for_each(|row| of[*row].push(regions.len())),
-            }
-            regions.push(write.value.and_then(|value| here.points(value)));
-        }
-        let written = Rc::new(Written { regions, of, of_any, whole: OnceCell::new() });
+            let regions = || write.value.and_then(|value| here.points(value));
+            (!rows.is_empty()).then(|| Update { rows, regions: regions() })
+        });
+        let written = Rc::new(Written::new(self.system.members[interface.0].len(), updates));
         self.known.written.borrow_mut().insert(key, written.clone());
         written
     }
@@ -409,7 +435,7 @@ impl<'a> Regions<'a> {
 }
 
 /// The local to which an update assigns this variable.
-fn assigns(update: &Update, variable: &Expr) -> Option<usize> {
+fn assigns(update: &crate::ir::Update, variable: &Expr) -> Option<usize> {
     match &update.kind {
         UpdateKind::Assign { target, value, .. } if value == variable => match target.place {
             Place::Local { local, index: None } => Some(local),
@@ -483,4 +509,39 @@ fn points_of(values: &[Value]) -> Vec<Region> {
 
 fn exactly(point: runtime_sim::point::Point) -> Region {
     [[point.x, point.x], [point.y, point.y], [point.z, point.z]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use runtime_sim::random::Random;
+
+    #[test]
+    fn what_is_written_into_cells_of_members_is_that_of_all_updates_that_name_one_of_them() {
+        const MEMBERS: usize = 6;
+        let mut random = Random::new(5);
+        let mut drawn = |one_in: u32| -> Vec<usize> {
+            (0..MEMBERS).filter(|_| one_in == 0 || random.up_to(one_in) == 0).collect()
+        };
+        for round in 0..200 {
+            // Of few members, of many, of all.
+            let rows =
+                (0..10).map(|update| drawn([3, 5, 1, 0][(update + round) % if round < 100 { 2 } else { 4 }]));
+            let rows: Vec<Vec<usize>> = rows.filter(|rows| !rows.is_empty()).collect();
+            let region =
+                |update: usize| (update != 7 || round % 5 > 0).then(|| vec![[[update as f64; 2]; 3]]);
+            let updates = rows.iter().enumerate();
+            let written = Written::new(
+                MEMBERS,
+                updates.map(|(number, rows)| Update { rows: rows.clone(), regions: region(number) }),
+            );
+            for asked in [drawn(3), drawn(1), drawn(0), Vec::new()] {
+                let is_meant = |rows: &[usize]| rows.iter().any(|row| asked.contains(row));
+                let meant = rows.iter().enumerate().filter(|(_, rows)| is_meant(rows));
+                let regions: Option<Vec<Vec<Region>>> = meant.map(|(number, _)| region(number)).collect();
+                let expected = regions.map(|regions| few(regions.into_iter().flatten()));
+                assert_eq!(written.of_members(&asked), expected, "{rows:?}, {asked:?}");
+            }
+        }
+    }
 }

@@ -295,8 +295,8 @@ pub(super) fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>>
     let Given { system, line, .. } = *given;
     let automaton = system.automaton_of(instance);
     let machine = &line.machines[instance];
-    let tools = tools(automaton, machine);
-    let asks_tool = (!tools.is_empty()).then(|| asks_tool(automaton, &tools));
+    let tool_ports = tool_ports(automaton, machine);
+    let asks_tool = (!tool_ports.is_empty()).then(|| asking_tool(automaton, &tool_ports));
     let mut motions = Vec::new();
     for (state, transition) in
         automaton.states.iter().enumerate().flat_map(|(n, s)| s.transitions.iter().map(move |t| (n, t)))
@@ -332,9 +332,9 @@ pub(super) fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>>
                 _ => vec![points.map(|point| (point, Facing::Down)).collect()],
             };
             // Up from where it is, or the like: it stays about there.
-            let stays = |goal: &Expr| asks_tool.as_ref().is_some_and(|asks| asks.expression(goal));
+            let is_by_tool = |goal: &Expr| asks_tool.as_ref().is_some_and(|asks| asks.expression(goal));
             for goals in turned {
-                if !goals.is_empty() && !goals.iter().any(|(goal, _)| stays(goal)) {
+                if !goals.is_empty() && !goals.iter().any(|(goal, _)| is_by_tool(goal)) {
                     let mut named = BTreeSet::new();
                     goals.iter().for_each(|(goal, _)| names(automaton, goal, &mut named));
                     motions.push(Motion { state, transition, place: update.place, goals, named });
@@ -353,9 +353,8 @@ fn turns(span: Option<region::Span>) -> Vec<f64> {
 }
 
 /// Expressions that read where the machine is by one of these ports, or a local that keeps where it was.
-fn asks_tool(automaton: &Automaton, tools: &[usize]) -> Asking<impl Fn(&ExprKind) -> bool> {
-    let is_tool =
-        |kind: &ExprKind| matches!(kind, ExprKind::Read(Place::Port { port, .. }) if tools.contains(port));
+fn asking_tool(automaton: &Automaton, tool_ports: &[usize]) -> Asking<impl Fn(&ExprKind) -> bool> {
+    let is_tool = |kind: &ExprKind| matches!(kind, ExprKind::Read(Place::Port { port, .. }) if tool_ports.contains(port));
     let asks = Asking::new(automaton, is_tool);
     let transitions = automaton.states.iter().flat_map(|state| &state.transitions);
     let kept =
@@ -374,7 +373,7 @@ fn asks_tool(automaton: &Automaton, tools: &[usize]) -> Asking<impl Fn(&ExprKind
 }
 
 /// The ports that show where the machine is.
-fn tools(automaton: &Automaton, machine: &Machine) -> Vec<usize> {
+fn tool_ports(automaton: &Automaton, machine: &Machine) -> Vec<usize> {
     let is_tool = |source: &Source| match *source {
         Source::Signal { part, signal } => {
             let schema = machine.parts[part].schema();

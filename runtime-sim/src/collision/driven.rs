@@ -46,30 +46,18 @@ pub fn driven_through(line: &Line) -> Vec<DrivenThrough> {
     let surfaces: Vec<Surface> =
         line.machines.iter().enumerate().flat_map(|(number, machine)| surfaces(number, machine)).collect();
     let swept = envelopes.iter().map(|envelope| envelope.whole);
-    let sweep = Sweep::new(swept.chain(surfaces.iter().map(|surface| surface.plates.bounds)));
-    let mut near: Vec<Vec<&Envelope>> = vec![Vec::new(); surfaces.len()];
+    let sweep = Sweep::new(swept.chain(surfaces.iter().map(|surface| surface.bounds)));
+    let mut near: Vec<Vec<usize>> = vec![Vec::new(); surfaces.len()];
     for mut pair in sweep.meeting() {
         pair.sort_unstable();
         let [envelope, surface] = pair;
         if envelope < envelopes.len() && surface >= envelopes.len() {
-            near[surface - envelopes.len()].push(&envelopes[envelope]);
+            near[surface - envelopes.len()].push(envelope);
         }
     }
-    let found = surfaces.iter().zip(near).filter_map(|(surface, near)| {
-        let machine = &line.machines[surface.machine];
-        let bodies = OnceCell::new();
-        let through = |envelope: &Envelope| {
-            let is_other = |vehicle: &&usize| {
-                let names = [surface.machine, **vehicle].map(|machine| line.machines[machine].name.as_str());
-                **vehicle != surface.machine && !line.allows(names)
-            };
-            let vehicle = *envelope.vehicles.iter().find(is_other)?;
-            let (at, body) = envelope.meets(&surface.plates)?;
-            let is_hit = envelope.meets(bodies.get_or_init(|| bodies_of(machine))).is_some();
-            let (machine, part) = (surface.machine, surface.part);
-            (!is_hit).then(|| DrivenThrough { vehicle, body: body.into(), machine, part, at })
-        };
-        near.into_iter().filter_map(through).min_by_key(|found| found.vehicle)
+    let found = surfaces.iter().zip(near).filter_map(|(surface, mut near)| {
+        near.sort_unstable();
+        surface.driven_through(line, near.into_iter().map(|envelope| &envelopes[envelope]))
     });
     found.collect()
 }
@@ -78,18 +66,52 @@ pub fn driven_through(line: &Line) -> Vec<DrivenThrough> {
 struct Surface {
     machine: usize,
     part: usize,
-    plates: Standing,
+    bounds: BoundingBox,
 }
 
 fn surfaces(number: usize, machine: &Machine) -> impl Iterator<Item = Surface> {
     machine.parts.iter().enumerate().filter_map(move |(part, of)| {
-        let plates = plates(&of.primitive)?;
-        Some(Surface { machine: number, part, plates })
+        let bounds = plates(&of.primitive)?.bounds;
+        Some(Surface { machine: number, part, bounds })
     })
 }
 
-/// Those that stand where the machine stands.
-fn bodies_of(machine: &Machine) -> Standing {
+impl Surface {
+    /// By the first vehicle in the order of the machines; the first vehicles of the envelopes ascend.
+    fn driven_through<'e>(
+        &self,
+        line: &Line,
+        near: impl Iterator<Item = &'e Envelope>,
+    ) -> Option<DrivenThrough> {
+        let machine = &line.machines[self.machine];
+        let (plates, bodies) = (OnceCell::new(), OnceCell::new());
+        let is_other = |vehicle: &&usize| {
+            let names = [self.machine, **vehicle].map(|machine| line.machines[machine].name.as_str());
+            **vehicle != self.machine && !line.allows(names)
+        };
+        let mut first: Option<DrivenThrough> = None;
+        for envelope in near {
+            if first.as_ref().is_some_and(|found| found.vehicle < envelope.vehicles[0]) {
+                break;
+            }
+            let plates = plates.get_or_init(|| self::plates(&machine.parts[self.part].primitive));
+            let met = plates.as_ref().and_then(|plates| envelope.meets(plates));
+            let Some((at, body)) = met else { continue };
+            if envelope.meets(bodies.get_or_init(|| unmoved_bodies(machine))).is_some() {
+                continue;
+            }
+            let Some(&vehicle) = envelope.vehicles.iter().find(is_other) else { continue };
+            if first.as_ref().is_none_or(|found| vehicle < found.vehicle) {
+                let body = body.into();
+                first = Some(DrivenThrough { vehicle, body, machine: self.machine, part: self.part, at });
+            }
+        }
+        first
+    }
+}
+
+/// The bodies that do not move.
+fn unmoved_bodies(machine: &Machine) -> Standing {
     let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::World);
     let pieces = solids.map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
     Standing::new(pieces.map(|piece| piece.within(&Pose::IDENTITY)).collect())
