@@ -362,7 +362,7 @@ fn listed(mut parts: Vec<String>, between: &str) -> String {
     let more = parts.len().saturating_sub(MOST_LISTED);
     if more > 0 {
         parts.truncate(MOST_LISTED);
-        parts.push(format!("and {more} more, in results.json"));
+        parts.push(format!("and {more} more, in {}", output::RESULTS));
     }
     parts.join(between)
 }

@@ -8,6 +8,7 @@ mod stage;
 mod stay;
 pub mod visits;
 mod writers;
+mod written;
 
 use crate::diagnostic::{Diagnostic, sort};
 use crate::lower::Project;

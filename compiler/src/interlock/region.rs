@@ -1,15 +1,16 @@
 //! Where points of a line may be, as far as its texts and its layout tell.
 
-use super::few::{Few, around, few};
+use super::few::{around, few};
 use super::writers::Writers;
+use super::written::{Written, WrittenBy};
 use crate::ir::{
-    Asking, Domain, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, System, Target, Transition,
+    Asking, Domain, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, System, Target, Transition, Update,
     UpdateKind, Value,
 };
 use runtime_sim::line::Line;
 use runtime_sim::part::Primitive;
 use runtime_sim::wiring::Source;
-use std::cell::{OnceCell, RefCell};
+use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
@@ -44,76 +45,6 @@ impl Bound {
     /// Locals that were asked for, with the answers.
     pub fn asked(&self) -> BTreeSet<(usize, Option<usize>)> {
         self.asked.borrow().clone()
-    }
-}
-
-/// What one update writes into a cell.
-struct Update {
-    /// The members whose cell it may be.
-    rows: Vec<usize>,
-    /// None: that is not known.
-    regions: Option<Vec<Region>>,
-}
-
-/// What all updates of a cell write.
-struct Written {
-    /// Those of any member have no rows.
-    updates: Vec<Update>,
-    /// The updates of the cell of each member, ascending, without those of any.
-    by_member: Vec<Vec<usize>>,
-    /// Those of any member, ascending.
-    of_any: Vec<usize>,
-    /// Into the cells of all members together.
-    whole: OnceCell<Option<Vec<Region>>>,
-}
-
-impl Written {
-    /// Each update may write to some member.
-    fn new(members: usize, updates: impl Iterator<Item = Update>) -> Self {
-        let (mut all, mut by_member, mut of_any) = (Vec::new(), vec![Vec::new(); members], Vec::new());
-        for mut update in updates {
-            if update.rows.len() == members {
-                update.rows = Vec::new();
-                of_any.push(all.len());
-            }
-            update.rows.iter().for_each(|row| by_member[*row].push(all.len()));
-            all.push(update);
-        }
-        Self { updates: all, by_member, of_any, whole: OnceCell::new() }
-    }
-
-    /// Where these updates may write; they ascend.
-    fn together(&self, updates: impl IntoIterator<Item = usize>) -> Option<Vec<Region>> {
-        let mut all = Few::default();
-        for update in updates {
-            all.extend(self.updates[update].regions.as_ref()?.iter().copied());
-        }
-        Some(all.regions)
-    }
-
-    /// Into the cells of these members, which differ.
-    fn of_members(&self, rows: &[usize]) -> Option<Vec<Region>> {
-        if rows.is_empty() {
-            return Some(Vec::new());
-        }
-        let all = 0..self.updates.len();
-        if rows.len() == self.by_member.len() {
-            return self.whole.get_or_init(|| self.together(all)).clone();
-        }
-        let named: usize = rows.iter().map(|row| self.by_member[*row].len()).sum();
-        if named < all.len() {
-            let mut updates = self.of_any.clone();
-            rows.iter().for_each(|row| updates.extend(&self.by_member[*row]));
-            updates.sort_unstable();
-            updates.dedup();
-            return self.together(updates);
-        }
-        let mut is_asked = vec![false; self.by_member.len()];
-        rows.iter().for_each(|row| is_asked[*row] = true);
-        self.together(all.filter(|update| {
-            let rows = &self.updates[*update].rows;
-            rows.is_empty() || rows.iter().any(|row| is_asked[*row])
-        }))
     }
 }
 
@@ -279,7 +210,7 @@ impl<'a> Regions<'a> {
                 None => here.own(interface).into_iter().collect(),
             };
             let regions = || write.value.and_then(|value| here.points(value));
-            (!rows.is_empty()).then(|| Update { rows, regions: regions() })
+            (!rows.is_empty()).then(|| WrittenBy { rows, regions: regions() })
         });
         let written = Rc::new(Written::new(self.system.members[interface.0].len(), updates));
         self.known.written.borrow_mut().insert(key, written.clone());
@@ -435,7 +366,7 @@ impl<'a> Regions<'a> {
 }
 
 /// The local to which an update assigns this variable.
-fn assigns(update: &crate::ir::Update, variable: &Expr) -> Option<usize> {
+fn assigns(update: &Update, variable: &Expr) -> Option<usize> {
     match &update.kind {
         UpdateKind::Assign { target, value, .. } if value == variable => match target.place {
             Place::Local { local, index: None } => Some(local),
@@ -509,39 +440,4 @@ fn points_of(values: &[Value]) -> Vec<Region> {
 
 fn exactly(point: runtime_sim::point::Point) -> Region {
     [[point.x, point.x], [point.y, point.y], [point.z, point.z]]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use runtime_sim::random::Random;
-
-    #[test]
-    fn what_is_written_into_cells_of_members_is_that_of_all_updates_that_name_one_of_them() {
-        const MEMBERS: usize = 6;
-        let mut random = Random::new(5);
-        let mut drawn = |one_in: u32| -> Vec<usize> {
-            (0..MEMBERS).filter(|_| one_in == 0 || random.up_to(one_in) == 0).collect()
-        };
-        for round in 0..200 {
-            // Of few members, of many, of all.
-            let rows =
-                (0..10).map(|update| drawn([3, 5, 1, 0][(update + round) % if round < 100 { 2 } else { 4 }]));
-            let rows: Vec<Vec<usize>> = rows.filter(|rows| !rows.is_empty()).collect();
-            let region =
-                |update: usize| (update != 7 || round % 5 > 0).then(|| vec![[[update as f64; 2]; 3]]);
-            let updates = rows.iter().enumerate();
-            let written = Written::new(
-                MEMBERS,
-                updates.map(|(number, rows)| Update { rows: rows.clone(), regions: region(number) }),
-            );
-            for asked in [drawn(3), drawn(1), drawn(0), Vec::new()] {
-                let is_meant = |rows: &[usize]| rows.iter().any(|row| asked.contains(row));
-                let meant = rows.iter().enumerate().filter(|(_, rows)| is_meant(rows));
-                let regions: Option<Vec<Vec<Region>>> = meant.map(|(number, _)| region(number)).collect();
-                let expected = regions.map(|regions| few(regions.into_iter().flatten()));
-                assert_eq!(written.of_members(&asked), expected, "{rows:?}, {asked:?}");
-            }
-        }
-    }
 }
