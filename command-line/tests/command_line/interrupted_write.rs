@@ -158,7 +158,7 @@ fn status_of(output: &Output) -> Option<i32> {
 #[test]
 fn a_write_that_ends_at_any_call_leaves_the_old_or_the_new_output() {
     let disk = Disk::new("interrupted_write");
-    let apart = if is_full_campaign() { 1 } else { 151 };
+    let apart = if is_full_campaign() { 1 } else { 211 };
     for fate in [Fate::Killed, Fate::NoSpace, Fate::ReadOnly, Fate::InputOutputError] {
         try_each(&disk, 2, 3, fate, apart);
     }
