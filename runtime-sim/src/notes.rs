@@ -85,10 +85,10 @@ pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String>
         .collect()
 }
 
-/// Lines about commands that ended in an error of reach.
+/// Lines about commands that ended in an error of reach, or gripped nothing.
 const MOST_MISSED: usize = 5;
 
-/// Commands that ended in an error of reach, a line each.
+/// Commands that ended in an error of reach, or gripped nothing, a line each.
 pub fn missed(line: &Line, plant: &Plant) -> Vec<String> {
     let machines = line.machines.iter().enumerate();
     let mut entries: Vec<_> = machines
@@ -100,17 +100,17 @@ pub fn missed(line: &Line, plant: &Plant) -> Vec<String> {
     entries.sort_by_key(|(_, entry)| entry.first_ms);
     let more = entries.len().saturating_sub(MOST_MISSED);
     let one = |(name, entry): &(&String, &Entry)| {
-        let Entry { command, missed, count, first_ms } = entry;
+        let Entry { command, error, reason, count, first_ms } = entry;
         let first_s = *first_ms as f64 / 1000.0;
         let often = if *count > 1 { format!(", {count} times") } else { String::new() };
-        format!("command {command} of {name} ended in error 1 at {first_s:.2} s{often}: {missed}")
+        format!("command {command} of {name} ended in error {error} at {first_s:.2} s{often}: {reason}")
     };
     let mut notes: Vec<String> = entries.iter().take(MOST_MISSED).map(one).collect();
     if more > 0 {
         let machines: BTreeSet<&str> = entries[MOST_MISSED..].iter().map(|(name, _)| name.as_str()).collect();
         let machines: Vec<&str> = machines.into_iter().take(MOST_MISSED).collect();
         notes.push(format!(
-            "{more} more commands to other places ended in error 1, of {}",
+            "{more} more commands ended in an error of reach or gripped nothing, of {}",
             machines.join(", ")
         ));
     }
@@ -121,7 +121,10 @@ pub fn missed(line: &Line, plant: &Plant) -> Vec<String> {
 pub fn missed_times(line: &Line, plant: &Plant) -> Vec<MissedReport> {
     let of = |machine: usize| {
         let times = plant.missed(machine).into_iter().flat_map(|missed| missed.times());
-        times.map(move |(at_ms, entry)| MissedReport { machine, at_ms, text: entry.missed.to_string() })
+        times.map(move |(at_ms, entry)| {
+            let Entry { error, reason, .. } = entry;
+            MissedReport { machine, at_ms, error: *error, text: reason.clone() }
+        })
     };
     (0..line.machines.len()).flat_map(of).collect()
 }

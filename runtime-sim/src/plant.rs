@@ -11,6 +11,7 @@ mod idle;
 mod loads;
 mod mishap;
 mod missed;
+mod missed_grip;
 mod phase;
 mod removing;
 mod sight;
@@ -202,6 +203,7 @@ impl Plant {
             machine.settle(&mut shared);
             machine.serve(&mut shared);
         }
+        self.note_missed_grips(next_ms);
         self.wake_concerned(next_ms);
         let (machines, mut shared) = self.split(scan);
         working(machines).for_each(|machine| machine.withdraw(&mut shared));
@@ -421,7 +423,7 @@ impl Plant {
         self.machines.get(machine).map_or(0, Working::commands)
     }
 
-    /// The commands of a machine that ended in an error of reach.
+    /// The commands of a machine that ended in an error of reach, or gripped nothing.
     pub(crate) fn missed(&self, machine: usize) -> Option<&MissedCommands> {
         Some(self.machines.get(machine)?.missed())
     }

@@ -77,12 +77,13 @@ pub struct FaultReport {
     pub cleared_s: Option<f64>,
 }
 
-/// A command that ended in an error of reach.
+/// A command that ended in an error of reach, or gripped nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MissedReport {
     /// Its number in the layout.
     pub machine: usize,
     pub at_ms: u64,
+    pub error: i32,
     /// Why.
     pub text: String,
 }

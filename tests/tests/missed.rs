@@ -123,3 +123,60 @@ fn a_tool_that_cannot_be_turned_so_is_not_said_to_be_out_of_reach() {
         "{far:?}"
     );
 }
+
+/// A cup that picks at a place, from a belt on which a box stands at (0.9, 0, 0.7), 0.1 m high.
+fn notes_of_picks(place: &str, closes: bool, boxes: u32) -> Vec<String> {
+    let specs = vec![
+        "device picker {
+            part infeed = lane { from: origin * frame(0, 0, 0.7, 0); length: 1.0; width: 0.2; speed: 0.25; };
+            part feeder = source { on: infeed; inset: 0.1; };
+            part eye = beam { across: infeed; at: 0.95; };
+            part slide = axis { from: origin * frame(0.8, 0, 1.25, 0); along: x; range: [0, 0.8]; speed: 1; acceleration: 4; };
+            part lift = axis { on: slide; along: z; range: [-0.4, 0]; speed: 0.6; acceleration: 4; };
+            part robot = chain { on: lift; tool_length: 0.1; rest: origin * point(0.9, 0, 1.0); };
+            part cup = grip { on: robot; period: 20 ms; looks: 2; near: 0.02; };
+            in at_end: bool = eye.sees;
+            out run: bool = infeed.run stop false;
+            out grip: bool = cup.close;
+            out goal: point unit \"m\";
+            command 1 move(goal) = robot.joints(goal);
+            command 2 pick(goal) = robot.joints(goal) then cup.holds within 500 ms else 2;
+        }
+        automaton Picker on picker {
+            parameter place: point;
+            parameter closes: bool;
+            local tries: int 0..9;
+            initial -> Waiting { run := true; }
+            state Waiting { when at_end or after 8 s -> Picking { run := false; grip := closes; } }
+            state Picking = sequence { pick(place); } -> Ended {} else Again { tries += 1; }
+            state Again = sequence { move(point(0.9, 0, 1.0)); } -> Once {} else Ended {}
+            state Once { when tries < 2 -> Picking {} when tries >= 2 -> Ended {} }
+            final state Ended;
+        }"
+        .into(),
+    ];
+    let layout = format!(
+        r#"{{"robots": [{{"name": "arm", "type": "picker", "pose": [0, 0, 0], "parameters": {{"place": {place}, "closes": {closes}}}}}]}}"#
+    );
+    let scenario = format!(
+        r#"{{"kinds": [{{"name": "box", "height": 0.1, "size": [0.1, 0.1]}}],
+            "supply": {{"items": ["box"], "times": {boxes}, "every_s": 1}}, "time_limit_s": 20}}"#
+    );
+    run(&Texts { layout, specs, scenario: Some(scenario), ..Texts::default() }).notes
+}
+
+#[test]
+fn notes_say_why_nothing_was_gripped() {
+    assert_eq!(notes_of_picks("[0.9, 0, 0.8]", true, 1), Vec::<String>::new());
+    let is_said = |notes: &[String], reason: &str| {
+        let [note] = notes else { panic!("{notes:?}") };
+        assert!(note.starts_with("command 2 of arm ended in error 2 at "), "{note}");
+        assert!(note.ends_with(reason), "{note}");
+    };
+    is_said(
+        &notes_of_picks("[0.94, 0, 0.83]", true, 1),
+        " s, 2 times: nothing was gripped at (0.940, 0.000, 0.830): the nearest item, box_1, is gripped at \
+         (0.900, 0.000, 0.800), 50 mm away, and the gripper takes it within 20 mm",
+    );
+    is_said(&notes_of_picks("[0.9, 0, 0.8]", false, 1), "(0.900, 0.000, 0.800): the gripper is not closed");
+}

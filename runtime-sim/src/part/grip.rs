@@ -3,7 +3,7 @@
 use super::place::OPPOSITE;
 use super::running::milliseconds;
 use super::settings::{Form, Setting, Settings};
-use super::{Described, Level, Looks, Progress, Running, Schema, See, Signal, Start, World};
+use super::{Described, Gripper, Level, Looks, Progress, Running, Schema, See, Signal, Start, World};
 use crate::carrier::Carrier;
 use crate::device::{Extent, PortType};
 use crate::kinematics::arm::direction_of;
@@ -244,6 +244,11 @@ impl Running for Gripping {
         };
         let ends = times.into_iter().map(|ms| self.since.0 + ms).filter(|ms| *ms > now_ms);
         ends.map(|ms| ms as f64).fold(loses, f64::min)
+    }
+
+    fn gripper(&self, see: &See) -> Option<Gripper> {
+        let Grip { chain, near, .. } = self.grip;
+        Some(Gripper { tool: see.tool(chain)?, near, is_closed: self.close == Close::On })
     }
 
     fn looks(&self) -> Option<Looks> {

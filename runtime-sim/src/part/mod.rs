@@ -10,7 +10,7 @@ pub mod stroke;
 
 pub use operated::Operated;
 pub(crate) use running::milliseconds;
-pub use running::{Begun, Looks, Progress, Running, See, Start, World};
+pub use running::{Begun, Gripper, Looks, Progress, Running, See, Start, World};
 pub use settings::{Form, Setting, Settings, VERTICAL};
 
 use crate::device::{Extent, PortType};

@@ -63,6 +63,16 @@ pub fn milliseconds(seconds: f64) -> u64 {
     libm::round(seconds * 1000.0) as u64
 }
 
+/// A gripper now.
+#[derive(Clone, Copy, Debug)]
+pub struct Gripper {
+    /// World frame.
+    pub tool: Pose,
+    /// It takes what is gripped no farther from the tool, m.
+    pub near: f64,
+    pub is_closed: bool,
+}
+
 /// How a part looks for an item.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Looks {
@@ -258,6 +268,11 @@ pub trait Running: std::fmt::Debug + Send + Sync {
 
     /// The frame of the tool where it looks for an item in this scan, and how near that has to be, m.
     fn seeks(&self, _see: &See, _now_ms: u64, _next_ms: u64) -> Option<(Pose, f64)> {
+        None
+    }
+
+    /// Of a gripper.
+    fn gripper(&self, _see: &See) -> Option<Gripper> {
         None
     }
 

@@ -198,6 +198,11 @@ impl Head {
         }
     }
 
+    /// That is under way, by its number among those of the wiring.
+    pub fn command(&self) -> Option<usize> {
+        Some(self.task?.command)
+    }
+
     /// What is awaited, and for how long it has been.
     pub fn awaits(&self) -> Option<(Await, u64)> {
         let task = self.task?;

@@ -126,6 +126,11 @@ fn bisected(mut low: u32, mut high: u32, holds: impl Fn(u32) -> bool) -> u32 {
     low
 }
 
+/// Whether the upper side of an item that faces there, none for up, faces the tool.
+pub(super) fn faces(tool: &Pose, upper: Option<Point>) -> bool {
+    tool.axis(2).dot(upper.unwrap_or(UP)) < OPPOSITE
+}
+
 impl Plant {
     /// When a gripper next looks and could find an item, ms; infinity: never, as everything moves now.
     pub(super) fn next_look(&mut self, now_ms: u64) -> f64 {
@@ -299,7 +304,7 @@ impl Plant {
     }
 
     /// Where an item is gripped: over the middle of its underside.
-    fn grip_point(&self, item: usize) -> Option<Point> {
+    pub(super) fn grip_point(&self, item: usize) -> Option<Point> {
         let (place, grasp) = (self.place(item)?, self.grasp(item));
         Some(match self.upper(item) {
             Some(upper) => place + upper.scaled(grasp),
@@ -317,9 +322,8 @@ impl Plant {
             let Some(grip) = self.grip_point(index) else { continue };
             let gap = grip - tool.position;
             let square = gap.x * gap.x + gap.y * gap.y + gap.z * gap.z;
-            let faces = |upper: Option<Point>| tool.axis(2).dot(upper.unwrap_or(UP)) < OPPOSITE;
             if square <= near * near
-                && faces(self.upper(index))
+                && faces(tool, self.upper(index))
                 && nearest.is_none_or(|least| (square, index) < least)
             {
                 nearest = Some((square, index));

@@ -1,18 +1,19 @@
-//! Commands of a machine that ended in an error of reach, and why.
-
-use crate::part::chain::missed::Missed;
+//! Commands of a machine that ended in an error of reach or gripped nothing, and why.
 
 /// Different ones that are remembered: a line that tries on for a day needs no more memory.
 const MOST: usize = 50;
 /// Times that are remembered.
 const MOST_TIMES: usize = 1_000;
 
-/// The same command that missed the same place for the same reason.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The same command that ended for the same reason.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// The number of the command on the device.
     pub command: i32,
-    pub missed: Missed,
+    /// In which it ended.
+    pub error: i32,
+    /// What of, with the place.
+    pub reason: String,
     pub count: u32,
     pub first_ms: u64,
 }
@@ -25,15 +26,16 @@ pub struct MissedCommands {
 }
 
 impl MissedCommands {
-    pub fn add(&mut self, command: i32, missed: Missed, at_ms: u64) {
-        let is_same = |entry: &Entry| entry.command == command && entry.missed == missed;
+    pub fn add(&mut self, command: i32, error: i32, reason: String, at_ms: u64) {
+        let is_same =
+            |entry: &Entry| (entry.command, entry.error, &entry.reason) == (command, error, &reason);
         let number = match self.entries.iter().position(is_same) {
             Some(known) => {
                 self.entries[known].count = self.entries[known].count.saturating_add(1);
                 known
             }
             None if self.entries.len() < MOST => {
-                self.entries.push(Entry { command, missed, count: 1, first_ms: at_ms });
+                self.entries.push(Entry { command, error, reason, count: 1, first_ms: at_ms });
                 self.entries.len() - 1
             }
             None => return,

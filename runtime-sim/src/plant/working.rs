@@ -19,13 +19,22 @@ use crate::memory::Memory;
 use crate::part::lane::Moving;
 use crate::part::orders::Desk;
 use crate::part::stroke::Carriage;
-use crate::part::{Begun, Looks, Part, Primitive, Progress, Running, See, Start, World, milliseconds};
+use crate::part::{
+    Begun, Gripper, Looks, Part, Primitive, Progress, Running, See, Start, World, milliseconds,
+};
 use crate::plant::conveyed::Conveyed;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
-use crate::wiring::{Drives, Source, Wiring};
+use crate::wiring::{Await, Drives, Source, Wiring};
 use std::ops::Range;
 use std::sync::Arc;
+
+/// A command, by its number among those of the wiring, and what it has awaited.
+#[derive(Clone, Copy, Debug)]
+pub struct WaitedInVain {
+    pub command: usize,
+    pub awaited: Await,
+}
 
 #[derive(Clone, Debug)]
 pub struct Working {
@@ -49,6 +58,8 @@ pub struct Working {
     /// Items that its grippers have taken.
     picks: u32,
     missed: MissedCommands,
+    /// In the last scan a command has waited for a signal too long.
+    waited_in_vain: Option<WaitedInVain>,
     faults: Faults,
     pub(super) idle: Idle,
     pub(super) phase: Phase,
@@ -115,6 +126,7 @@ impl Working {
             order,
             picks: 0,
             missed: MissedCommands::default(),
+            waited_in_vain: None,
             parts,
             head: Head::new(&machine.wiring, kinds, refusals, answers.collect()),
             inputs: ranges(machine.wiring.inputs.iter().map(|input| input.size.words(kinds))),
@@ -134,6 +146,20 @@ impl Working {
         self.picks
     }
 
+    pub fn take_waited_in_vain(&mut self) -> Option<WaitedInVain> {
+        self.waited_in_vain.take()
+    }
+
+    /// Why the command ended that has waited in vain.
+    pub fn note_missed(
+        &mut self,
+        WaitedInVain { command, awaited }: WaitedInVain,
+        reason: String,
+        at_ms: u64,
+    ) {
+        self.missed.add(self.wiring.commands[command].number, awaited.error, reason, at_ms);
+    }
+
     pub fn missed(&self) -> &MissedCommands {
         &self.missed
     }
@@ -145,6 +171,11 @@ impl Working {
 
     pub fn faults(&self) -> &Faults {
         &self.faults
+    }
+
+    /// Of a part that is a gripper.
+    pub fn gripper(&self, part: usize, see: &See) -> Option<Gripper> {
+        self.parts.get(part)?.as_ref()?.gripper(see)
     }
 
     /// Numbers of all inputs.
@@ -203,7 +234,7 @@ impl Working {
         if error == error::UNREACHABLE
             && let Some(missed) = part.and_then(|part| part.missed())
         {
-            self.missed.add(asked.number, missed, ends_ms);
+            self.missed.add(asked.number, error, missed.to_string(), ends_ms);
         }
         self.end(error, ends_ms);
     }
@@ -383,6 +414,8 @@ impl Working {
             if is_there {
                 self.end(error::NONE, next_ms);
             } else if waited_ms >= awaited.within_ms {
+                let command = self.head.as_ref().filter(|head| !head.is_in_vain()).and_then(Head::command);
+                self.waited_in_vain = command.map(|command| WaitedInVain { command, awaited });
                 self.end(awaited.error, next_ms);
             }
         }

@@ -23,8 +23,12 @@ pub fn alarms(line: &Line, recorded: &Recorded, signals: &[Signal], results: &Va
         let mut put = |scan: u64, text: String| alarms.push((scan, machine, text));
         match signal.source {
             Source::Input { machine, word: at } if errors[machine] == Some(at) => {
-                let why = |scan: u64| reason(recorded, machine, scan * u64::from(line.scan_ms));
-                answers(word).for_each(|(scan, code)| put(scan, answer_text(code, why(scan))));
+                let mut last_ms = None;
+                for (scan, code) in answers(word) {
+                    let at_ms = scan * u64::from(line.scan_ms);
+                    put(scan, answer_text(code, reason(recorded, machine, code, last_ms, at_ms)));
+                    last_ms = Some(at_ms);
+                }
             }
             Source::RunPermit => {
                 for (scan, permit) in word.changes.iter().skip(1) {
@@ -88,23 +92,32 @@ fn raised(line: &Line, results: &Value) -> Vec<(f64, i64, String)> {
 }
 
 /// When a word became other than 0.
-fn answers(word: &Word) -> impl Iterator<Item = (u64, i64)> {
-    word.changes.iter().filter(|(_, value)| *value != 0.0).map(|(scan, value)| (*scan, *value as i64))
+fn answers(word: &Word) -> impl Iterator<Item = (u64, i32)> {
+    word.changes.iter().filter(|(_, value)| *value != 0.0).map(|(scan, value)| (*scan, *value as i32))
 }
 
-/// Why the last command that ended in an error of reach by then did.
-fn reason(recorded: &Recorded, machine: usize, by_ms: u64) -> Option<&str> {
-    let mut of_machine =
-        recorded.report.missed.iter().filter(|missed| missed.machine == machine && missed.at_ms <= by_ms);
-    of_machine.next_back().map(|missed| missed.text.as_str())
+/// Why the last command that ended in this error by then, and after the answer before, did.
+fn reason(
+    recorded: &Recorded,
+    machine: usize,
+    error: i32,
+    after_ms: Option<u64>,
+    by_ms: u64,
+) -> Option<&str> {
+    let mut all = recorded.report.missed.iter().rev();
+    let last = all.find(|missed| {
+        let is_of_answer = missed.at_ms <= by_ms && after_ms.is_none_or(|after| missed.at_ms > after);
+        (missed.machine, missed.error) == (machine, error) && is_of_answer
+    });
+    last.map(|missed| missed.text.as_str())
 }
 
-fn answer_text(code: i64, why: Option<&str>) -> String {
-    let meaning = match i32::try_from(code) {
-        Ok(error::UNREACHABLE) => why.unwrap_or("the goal cannot be reached"),
-        Ok(error::NO_PART) => "nothing was gripped",
-        Ok(error::REFUSED) => "the device refused it",
-        Ok(error::WITHDRAWN) => "it was withdrawn",
+fn answer_text(code: i32, why: Option<&str>) -> String {
+    let meaning = match code {
+        error::UNREACHABLE => why.unwrap_or("the goal cannot be reached"),
+        error::NO_PART => why.unwrap_or("nothing was gripped"),
+        error::REFUSED => "the device refused it",
+        error::WITHDRAWN => "it was withdrawn",
         _ => "see the type of the device",
     };
     format!("a command ended in error {code}: {meaning}")
