@@ -213,7 +213,9 @@ impl Expanded {
                 }
                 Err(violation) => {
                     find(&violation);
-                    steps.push(Step::Out { acting });
+                    if successor.faults == 0 {
+                        steps.push(Step::Out { acting });
+                    }
                 }
             }
         };

@@ -16,7 +16,7 @@ use std::time::Instant;
 #[derive(Default)]
 pub(crate) struct Edges {
     list: Vec<(u32, u32)>,
-    /// States from which something leads to a violation: what could come after it is not known.
+    /// States from which something leads to a violation although nothing fails: what could come after it is not known.
     out: Vec<u32>,
     /// States from which the line comes to a stop for an operator although nothing fails any more.
     stops: Vec<u32>,

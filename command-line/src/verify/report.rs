@@ -141,6 +141,10 @@ impl Report<'_> {
                     bounds.push(format!("whether what a `whenever` waits for can come is not decided: {why}"));
                 }
                 None if self.outcome.violations.iter().any(is_refuted) => {}
+                None if !self.outcome.violations.is_empty() => bounds.push(
+                    "what a `whenever` waits for can still come, or one of these violations, after which nothing is decided; whether it comes in time is not decided"
+                        .into(),
+                ),
                 None => bounds.push(
                     "what a `whenever` waits for can always still come, after any number of scans; whether it comes in time is not decided"
                         .into(),

@@ -95,7 +95,7 @@ fn a_violation_that_does_not_occur_in_the_run_is_not_said_to() {
 /// What is violated is not promised below.
 #[test]
 fn what_is_waited_for_can_come_only_if_nothing_else_was_found() {
-    let bounds = |name, goal| {
+    let bounds = |name, goal: &str| {
         let automaton = format!(
             "local n: int 0..2;
             whenever n = 1 then n = 2 within 1 s;
@@ -111,6 +111,27 @@ fn what_is_waited_for_can_come_only_if_nothing_else_was_found() {
         json(&output)["bounds"].to_string()
     };
     let promise = "can always still come";
-    assert!(bounds("is_followed", 2).contains(promise));
-    assert!(!bounds("is_never_followed", 0).contains(promise));
+    assert!(bounds("is_followed", "2").contains(promise));
+    assert!(!bounds("is_never_followed", "0").contains(promise));
+    // Another violation ends the search there.
+    let violated = bounds("is_violated_instead", "2 * n + 1");
+    assert!(violated.contains("can still come, or one of these violations") && !violated.contains(promise));
+}
+
+/// What only a refused command brings about is no end for what is waited for.
+#[test]
+fn a_violation_after_a_failure_hides_no_obligation() {
+    let automaton = "local n: int 0..1;
+        invariant not failed;
+        whenever true then n = 1 within 1 s;
+        initial -> Going { go(1); }
+        state Going { when done -> Going { go(1); } when n = 1 -> Going { n := 1; } }";
+    let folder = put("hidden_obligation", automaton, r#"{"time_limit_s": 60}"#);
+    let arguments = ["verify", "line.json", "--scenario", "scenario.json", "--all", "--format", "json"];
+    let found = json(&autogen(&folder, &arguments));
+    let kinds: Vec<&str> = (found["violations"].as_array().expect("a list").iter())
+        .filter_map(|violation| violation["violation"].as_str())
+        .collect();
+    assert!(kinds.iter().any(|text| text.contains("cannot be fulfilled")), "{found:#}");
+    assert!(kinds.iter().any(|text| text.contains("not failed")), "{found:#}");
 }
