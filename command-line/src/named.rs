@@ -17,6 +17,8 @@ pub enum Unusable {
     LeadsOut,
     /// A symbolic link in a folder of automata that leads out of it.
     LinkLeadsOut(PathBuf),
+    /// One of the files of a folder of automata.
+    EntryUnread(PathBuf, io::Error),
     /// A folder without automata.
     NoAutomata,
     /// Neither a folder nor a file of automata.
@@ -33,6 +35,9 @@ impl fmt::Display for Unusable {
             Unusable::Unread(why) => return why.fmt(f),
             Unusable::LinkLeadsOut(link) => {
                 return write!(f, "{} is a symbolic link that leads out of it", link.display());
+            }
+            Unusable::EntryUnread(entry, why) => {
+                return write!(f, "{} cannot be read: {why}", entry.display());
             }
             Unusable::LeadsOut => "this leads out of the folder of the layout",
             Unusable::NoAutomata => "this folder has no *.aut file",
@@ -90,17 +95,21 @@ impl Folder {
     }
 }
 
-/// A file of automata, or those of a folder in the order of their names.
+/// A file of automata, or those of a folder in the order of their names, without hidden ones: some editors and systems put
+/// files of their own beside a file, `.#mill.aut` or `._mill.aut`.
 pub fn automata(path: &Path) -> Result<Vec<PathBuf>, Unusable> {
     let is_automata = |path: &Path| path.extension().is_some_and(|e| e == "aut");
+    let is_hidden =
+        |path: &Path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
     if !path.metadata()?.is_dir() {
         return if is_automata(path) { Ok(vec![path.into()]) } else { Err(Unusable::NotAutomata) };
     }
     let mut files = Vec::new();
     for entry in path.read_dir()? {
         let entry = entry?.path();
-        if is_automata(&entry) {
-            if !entry.canonicalize()?.starts_with(path.canonicalize()?) {
+        if is_automata(&entry) && !is_hidden(&entry) {
+            let real = entry.canonicalize().map_err(|why| Unusable::EntryUnread(entry.clone(), why))?;
+            if !real.starts_with(path.canonicalize()?) {
                 return Err(Unusable::LinkLeadsOut(entry));
             }
             files.push(entry);
@@ -110,7 +119,9 @@ pub fn automata(path: &Path) -> Result<Vec<PathBuf>, Unusable> {
         }
     }
     let is_listed = |path: &PathBuf| files.iter().any(|listed| listed.file_name() == path.file_name());
-    let unsaved = read::open_in(path).into_iter().filter(|open| is_automata(open) && !is_listed(open));
+    let unsaved = read::open_in(path)
+        .into_iter()
+        .filter(|open| is_automata(open) && !is_hidden(open) && !is_listed(open));
     let unsaved: Vec<_> = unsaved.filter_map(|open| Some(path.join(open.file_name()?))).collect();
     files.extend(unsaved);
     files.sort();

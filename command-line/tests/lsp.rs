@@ -10,6 +10,8 @@ mod json;
 mod messages;
 #[path = "lsp/names.rs"]
 mod names;
+#[path = "lsp/on_disk.rs"]
+mod on_disk;
 #[path = "lsp/unread.rs"]
 mod unread;
 

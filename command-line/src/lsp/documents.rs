@@ -4,7 +4,7 @@ use super::uri;
 use crate::read::{self, MOST_BYTES};
 use autogen::lsp::lines::Lines;
 use autogen::lsp::protocol::{TextDocumentContentChangeEvent, Uri};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 /// Bytes of all texts that are open.
@@ -22,12 +22,18 @@ pub struct Document {
 #[derive(Debug, Default)]
 pub struct Documents {
     open: BTreeMap<PathBuf, Document>,
+    /// By the addresses under which they were opened: later their folder may be gone, or be a link to another one.
+    paths: HashMap<Uri, PathBuf>,
 }
 
 impl Documents {
     pub fn get(&self, uri: &Uri) -> Option<(&Path, &Document)> {
-        let path = read::real(&uri::path(uri)?)?;
+        let path = self.path(uri)?;
         self.open.get_key_value(&path).map(|(path, document)| (path.as_path(), document))
+    }
+
+    fn path(&self, uri: &Uri) -> Option<PathBuf> {
+        self.paths.get(uri).cloned().or_else(|| read::real(&uri::path(uri)?))
     }
 
     pub fn at(&self, path: &Path) -> Option<&Document> {
@@ -41,12 +47,13 @@ impl Documents {
     /// What is no file of this machine is left alone.
     pub fn open(&mut self, uri: Uri, version: i32, text: String) {
         if let Some(path) = uri::path(&uri).and_then(|path| read::real(&path)) {
+            self.paths.insert(uri.clone(), path.clone());
             self.keep(path, Document { uri, version, text: Some(text) });
         }
     }
 
     pub fn change(&mut self, uri: &Uri, version: i32, changes: Vec<TextDocumentContentChangeEvent>) {
-        let Some(path) = uri::path(uri).and_then(|path| read::real(&path)) else { return };
+        let Some(path) = self.path(uri) else { return };
         let Some(mut document) = self.open.remove(&path) else { return };
         let mut text = document.text.take();
         for change in changes {
@@ -66,10 +73,21 @@ impl Documents {
         self.keep(path, Document { version, text, ..document });
     }
 
+    /// A file that is open under another address too stays open.
     pub fn close(&mut self, uri: &Uri) {
-        if let Some(path) = uri::path(uri).and_then(|path| read::real(&path)) {
-            self.open.remove(&path);
-            read::open_as(&path, None);
+        let Some(path) = self.path(uri) else { return };
+        self.paths.remove(uri);
+        let other = self.paths.iter().find(|(_, open)| **open == path).map(|(uri, _)| uri.clone());
+        match other {
+            Some(other) => {
+                if let Some(document) = self.open.get_mut(&path) {
+                    document.uri = other;
+                }
+            }
+            None => {
+                self.open.remove(&path);
+                read::open_as(&path, None);
+            }
         }
     }
 

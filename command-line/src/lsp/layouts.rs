@@ -16,7 +16,7 @@ const MOST_FILES: usize = 200;
 /// Bytes of all files that are read for one question.
 const MOST_BYTES: usize = 20_000_000;
 /// Layouts of one file.
-const MOST_LAYOUTS: usize = 16;
+pub const MOST_LAYOUTS: usize = 16;
 /// Names of automata of one layout.
 const MOST_SPECS: usize = 1000;
 /// The scenario of a layout that names none.
@@ -59,6 +59,15 @@ impl Layouts {
     /// The layouts that name a file or its folder, in the order of their names, the nearest folder first. `folders` are
     /// those of the workspace.
     pub fn naming(&mut self, file: &Path, folders: &[PathBuf]) -> Vec<Found> {
+        self.first_naming(file, folders, MOST_LAYOUTS)
+    }
+
+    /// Whether there are more than [`Self::naming`] gives.
+    pub fn are_too_many(&mut self, file: &Path, folders: &[PathBuf]) -> bool {
+        self.first_naming(file, folders, MOST_LAYOUTS + 1).len() > MOST_LAYOUTS
+    }
+
+    fn first_naming(&mut self, file: &Path, folders: &[PathBuf], most: usize) -> Vec<Found> {
         let mut found = Vec::new();
         let mut left = MOST_BYTES;
         for folder in above(file, folders) {
@@ -72,7 +81,7 @@ impl Layouts {
                 if let Some(named) = named.filter(names) {
                     found.push((path, named.unread));
                 }
-                if found.len() == MOST_LAYOUTS {
+                if found.len() == most {
                     return found;
                 }
             }

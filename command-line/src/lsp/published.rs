@@ -6,7 +6,7 @@ use super::uri;
 use crate::read::{self, MOST_BYTES};
 use autogen::lsp::diagnostics::{self, Located};
 use autogen::lsp::lines::Lines;
-use autogen::lsp::protocol::{Diagnostic, Location, PublishDiagnosticsParams};
+use autogen::lsp::protocol::{Diagnostic, Location, PublishDiagnosticsParams, Uri};
 use autogen::source::{FileId, Sources, Span};
 use serde_json::{Value, json};
 use std::cell::OnceCell;
@@ -14,10 +14,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
-/// By real paths.
+/// By real paths, with the address that the client was told.
 #[derive(Debug, Default)]
 pub struct Published {
-    told: BTreeMap<PathBuf, Vec<Diagnostic>>,
+    told: BTreeMap<PathBuf, (Uri, Vec<Diagnostic>)>,
 }
 
 impl Published {
@@ -42,22 +42,33 @@ impl Published {
             add(&mut new, open, &holders, &found, documents);
         }
         let files: BTreeSet<&PathBuf> = self.told.keys().chain(new.keys()).collect();
-        let mut messages = Vec::new();
-        for file in files {
-            let document = documents.at(file);
-            let now = new.get(file).cloned().unwrap_or_default();
-            if document.is_none() && self.told.get(file).cloned().unwrap_or_default() == now {
-                continue;
-            }
-            let uri = document.map_or_else(|| uri::of(file), |document| document.uri.clone());
-            let version = document.map(|document| document.version);
-            let params = PublishDiagnosticsParams { uri, version, diagnostics: now };
+        let (mut messages, mut told) = (Vec::new(), BTreeMap::new());
+        let mut tell = |params: PublishDiagnosticsParams| {
             messages.push(json!({
                 "jsonrpc": "2.0", "method": "textDocument/publishDiagnostics", "params": params,
             }));
+        };
+        for file in files {
+            let document = documents.at(file);
+            let diagnostics = new.get(file).cloned().unwrap_or_default();
+            let uri = document.map_or_else(|| uri::of(file), |document| document.uri.clone());
+            let last = self.told.get(file).filter(|(last, _)| *last == uri);
+            if let Some((other, _)) = self.told.get(file).filter(|(last, _)| *last != uri) {
+                tell(PublishDiagnosticsParams { uri: other.clone(), version: None, diagnostics: Vec::new() });
+            }
+            if document.is_some() || last.map_or(&[][..], |(_, last)| last) != diagnostics {
+                let version = document.map(|document| document.version);
+                tell(PublishDiagnosticsParams {
+                    uri: uri.clone(),
+                    version,
+                    diagnostics: diagnostics.clone(),
+                });
+            }
+            if !diagnostics.is_empty() {
+                told.insert(file.clone(), (uri, diagnostics));
+            }
         }
-        self.told = new;
-        self.told.retain(|_, diagnostics| !diagnostics.is_empty());
+        self.told = told;
         messages
     }
 }

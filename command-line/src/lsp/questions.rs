@@ -1,9 +1,10 @@
 //! What the client asks about a place in a text.
 
 use super::documents::Documents;
-use super::layouts::{self, Layouts};
+use super::layouts::{self, Layouts, MOST_LAYOUTS};
 use super::published::Files;
 use super::root::{self, Root};
+use crate::read;
 use autogen::check::names::What;
 use autogen::lsp::completion::completion;
 use autogen::lsp::diagnostics::Located;
@@ -17,8 +18,8 @@ use autogen::lsp::protocol::{
 use autogen::lsp::rename;
 use autogen::lsp::specs::Specs;
 use autogen::source::{FileId, Span};
-use std::collections::{BTreeMap, HashMap, HashSet};
-use std::path::PathBuf;
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::path::{Path, PathBuf};
 
 /// What the texts mean, until one of them changes.
 #[derive(Debug, Default)]
@@ -32,6 +33,15 @@ struct At<'a> {
     files: Files<'a>,
     file: FileId,
     offset: usize,
+}
+
+/// In texts that belong together; none if the file is none of them.
+fn at<'a>(specs: &'a Specs, documents: &'a Documents, path: &Path, position: Position) -> Option<At<'a>> {
+    let files = Files::new(&specs.sources, documents);
+    let file = files.paths.iter().position(|known| known.as_deref() == Some(path))?;
+    let file = FileId(file as u32);
+    let offset = files.lines(file).offset(position);
+    Some(At { specs, files, file, offset })
 }
 
 impl At<'_> {
@@ -118,20 +128,17 @@ impl Questions {
         let Some((path, document)) = asked.documents.get(asked.uri) else { return Vec::new() };
         let text = document.text.as_deref().unwrap_or_default();
         let roots = Root::all(path, text, layouts, asked.folders);
-        for root in &roots {
+        self.learn(&roots);
+        let specs = roots.iter().filter_map(|root| self.known.get(root)?.as_ref());
+        specs.filter_map(|specs| at(specs, asked.documents, path, asked.position)).collect()
+    }
+
+    fn learn(&mut self, roots: &[Root]) {
+        for root in roots {
             if !self.known.contains_key(root) {
                 self.known.insert(root.clone(), root::specs(root));
             }
         }
-        let specs = roots.iter().filter_map(|root| self.known.get(root)?.as_ref());
-        let place = |specs: &'a Specs| {
-            let files = Files::new(&specs.sources, asked.documents);
-            let file = files.paths.iter().position(|known| known.as_deref() == Some(path))?;
-            let file = FileId(file as u32);
-            let offset = files.lines(file).offset(asked.position);
-            Some(At { specs, files, file, offset })
-        };
-        specs.filter_map(place).collect()
     }
 
     pub fn hover(&mut self, asked: &Asked, layouts: &mut Layouts) -> Option<Hover> {
@@ -150,6 +157,7 @@ impl Questions {
 
     /// None of what is declared in the library, which is in no file of this machine.
     pub fn definition(&mut self, asked: &Asked, layouts: &mut Layouts) -> Option<Location> {
+        self.forget();
         let all = self.at(asked, layouts);
         all.iter().find_map(|at| at.files.location(at.specs.definition(at.span())?))
     }
@@ -160,6 +168,7 @@ impl Questions {
         layouts: &mut Layouts,
         and_declaration: bool,
     ) -> Vec<Location> {
+        self.forget();
         let mut found = Vec::new();
         let mut known = HashSet::new();
         for at in self.at(asked, layouts) {
@@ -176,6 +185,7 @@ impl Questions {
 
     /// The place and text of a name that can be renamed.
     pub fn renamed_at(&mut self, asked: &Asked, layouts: &mut Layouts) -> Result<(Range, String), String> {
+        self.forget();
         let all = self.at(asked, layouts);
         let mut first = Err("there is no name here that can be renamed".to_string());
         for at in all.iter().rev() {
@@ -185,28 +195,45 @@ impl Questions {
         first
     }
 
-    /// In all lines that have the file: if one of them refuses, nothing is renamed.
+    /// In all lines that have the file or one that is changed: if one of them refuses, nothing is renamed.
     pub fn rename(
         &mut self,
         asked: &Asked,
         layouts: &mut Layouts,
         name: &str,
     ) -> Result<WorkspaceEdit, String> {
+        self.forget();
         let mut changes: HashMap<Uri, Vec<TextEdit>> = HashMap::new();
-        let mut known = HashSet::new();
-        let all = self.at(asked, layouts);
-        if all.is_empty() {
-            return Err("there is no name here that can be renamed".into());
-        }
-        for at in &all {
-            for (span, new_text) in rename::rename(at.specs, at.span(), name)? {
-                let location = at.files.location(span);
-                let location = location.ok_or("a file that has to be changed is not on this machine")?;
-                if known.insert(location.clone()) {
-                    let edit = TextEdit { range: location.range, new_text };
-                    changes.entry(location.uri).or_default().push(edit);
+        let (mut known, mut searched) = (HashSet::new(), BTreeSet::new());
+        let asked_in = asked.documents.get(asked.uri).map(|(path, _)| (path.to_path_buf(), asked.position));
+        // Of each file of automata one place of the name.
+        let mut places: Vec<(PathBuf, Position)> = asked_in.into_iter().collect();
+        let mut next = 0;
+        while let Some((path, position)) = places.get(next).cloned() {
+            next += 1;
+            let roots = roots_of_all(&path, asked, layouts)?;
+            let new: Vec<Root> = roots.into_iter().filter(|root| searched.insert(root.clone())).collect();
+            self.learn(&new);
+            let specs = new.iter().filter_map(|root| self.known.get(root)?.as_ref());
+            for at in specs.filter_map(|specs| at(specs, asked.documents, &path, position)) {
+                for (span, new_text) in rename::rename(at.specs, at.span(), name)? {
+                    let location = at.files.location(span);
+                    let location = location.ok_or("a file that has to be changed is not on this machine")?;
+                    if let Some(changed) = &at.files.paths[span.file.0 as usize]
+                        && changed.extension().is_some_and(|extension| extension == "aut")
+                        && places.iter().all(|(place, _)| place != changed)
+                    {
+                        places.push((changed.clone(), location.range.start));
+                    }
+                    if known.insert(location.clone()) {
+                        let edit = TextEdit { range: location.range, new_text };
+                        changes.entry(location.uri).or_default().push(edit);
+                    }
                 }
             }
+        }
+        if changes.is_empty() {
+            return Err("there is no name here that can be renamed".into());
         }
         Ok(WorkspaceEdit { changes: Some(changes), ..WorkspaceEdit::default() })
     }
@@ -231,6 +258,21 @@ impl Questions {
             })
             .collect()
     }
+}
+
+/// What a file belongs to; an error if that is more than is looked at.
+fn roots_of_all(path: &Path, asked: &Asked, layouts: &mut Layouts) -> Result<Vec<Root>, String> {
+    if layouts.are_too_many(path, asked.folders) {
+        let file = path.file_name().unwrap_or_default().display();
+        return Err(format!(
+            "{file} belongs to more than {MOST_LAYOUTS} layouts, which is the limit: nothing is renamed"
+        ));
+    }
+    let text = match asked.documents.at(path) {
+        Some(document) => document.text.clone(),
+        None => read::text(path).ok(),
+    };
+    Ok(Root::all(path, &text.unwrap_or_default(), layouts, asked.folders))
 }
 
 /// The sign beside a word.

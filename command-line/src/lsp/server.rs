@@ -52,6 +52,8 @@ pub struct Server<W> {
     documents: Documents,
     /// Those of the workspace.
     folders: Vec<PathBuf>,
+    /// The client can be asked to tell of files that change on the disk.
+    can_watch: bool,
     layouts: Layouts,
     published: Published,
     questions: Questions,
@@ -66,6 +68,7 @@ impl<W: Write> Server<W> {
             stage: Stage::Begun,
             documents: Documents::default(),
             folders: Vec::new(),
+            can_watch: false,
             layouts: Layouts::default(),
             published: Published::default(),
             questions: Questions::default(),
@@ -96,7 +99,12 @@ impl<W: Write> Server<W> {
     fn request(&mut self, request: RequestObject, waiting: &VecDeque<Incoming>) -> io::Result<Next> {
         let (method, id, params) = request.into_parts();
         let params = params.unwrap_or(Value::Null);
-        let Some(id) = id else { return Ok(self.notified(&method, params)) };
+        let Some(id) = id else {
+            if method == "initialized" && self.stage == Stage::Running && self.can_watch {
+                self.send(&watch())?;
+            }
+            return Ok(self.notified(&method, params));
+        };
         if waiting.iter().any(|other| cancels(other, &id)) {
             let cancelled = ErrorCodes::Custom(LspErrorCodes::RequestCancelled.into());
             self.refuse(id, error(cancelled, "cancelled"))?;
@@ -119,6 +127,8 @@ impl<W: Write> Server<W> {
             (Stage::Begun, LspRequestMethod::Initialize) => {
                 self.stage = Stage::Running;
                 self.folders = folders(&params);
+                let watched = &params["capabilities"]["workspace"]["didChangeWatchedFiles"];
+                self.can_watch = watched["dynamicRegistration"] == true;
                 result::<InitializeRequest>(capabilities())
             }
             (Stage::Begun, _) => {
@@ -315,6 +325,18 @@ fn folders(params: &Value) -> Vec<PathBuf> {
     let listed = params["workspaceFolders"].as_array().into_iter().flatten().map(|folder| &folder["uri"]);
     let uris = listed.chain([&params["rootUri"]]).filter_map(Value::as_str);
     uris.filter_map(|text| read::real(&uri::path(&text.into())?)).collect()
+}
+
+/// The client is to tell of all files that belong to lines, by whomever they are changed.
+fn watch() -> Value {
+    let watchers = json!([{"globPattern": "**/*.{aut,json,test}"}]);
+    let registration = json!({
+        "id": "files", "method": "workspace/didChangeWatchedFiles", "registerOptions": {"watchers": watchers},
+    });
+    json!({
+        "jsonrpc": "2.0", "id": "watch", "method": "client/registerCapability",
+        "params": {"registrations": [registration]},
+    })
 }
 
 fn capabilities() -> InitializeResult {

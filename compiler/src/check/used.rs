@@ -6,46 +6,49 @@ use std::collections::BTreeSet;
 
 /// The files with only the automata named, and the interfaces and enumerations that these mention.
 pub fn used(files: &[(FileId, ast::File)], automata: &BTreeSet<String>) -> Vec<(FileId, ast::File)> {
-    let mut names: BTreeSet<String> = automata.clone();
+    let mut types: BTreeSet<String> = automata.clone();
+    // Words of expressions: of the names of types they can be those of enumerations alone.
+    let mut words = Vec::new();
     loop {
-        let before = names.len();
+        let before = types.len();
+        words.clear();
         for (_, file) in files {
             for automaton in &file.automata {
-                if names.contains(&automaton.name.value) {
-                    names.extend(of_automaton(automaton));
+                if types.contains(&automaton.name.value) {
+                    types.extend(of_head(automaton));
+                    of_text(automaton, &mut words);
                 }
             }
             for interface in &file.interfaces {
-                if names.contains(&interface.name.value) {
-                    names.extend(interface.parameters.iter().flat_map(|p| of_type(&p.ty)));
-                    names.extend(interface.cells.iter().flat_map(|c| of_type(&c.ty)));
-                    let mut read = Vec::new();
-                    interface.properties.iter().for_each(|property| of_property(property, &mut read));
-                    names.extend(read);
+                if types.contains(&interface.name.value) {
+                    types.extend(interface.parameters.iter().flat_map(|p| of_type(&p.ty)));
+                    types.extend(interface.cells.iter().flat_map(|c| of_type(&c.ty)));
+                    interface.properties.iter().for_each(|property| of_property(property, &mut words));
                 }
             }
         }
-        if names.len() == before {
+        if types.len() == before {
             break;
         }
     }
+    let words: BTreeSet<String> = words.into_iter().collect();
+    let is_used = |of: &ast::Enum| {
+        let name = &of.name.value;
+        let has_member = || of.members.iter().any(|member| words.contains(&member.value));
+        types.contains(name) || words.contains(name) || has_member()
+    };
     files
         .iter()
         .map(|(id, file)| {
             let tree = ast::File {
-                enums: (file.enums.iter())
-                    .filter(|e| {
-                        names.contains(&e.name.value) || e.members.iter().any(|m| names.contains(&m.value))
-                    })
-                    .cloned()
-                    .collect(),
+                enums: file.enums.iter().filter(|e| is_used(e)).cloned().collect(),
                 interfaces: file
                     .interfaces
                     .iter()
-                    .filter(|i| names.contains(&i.name.value))
+                    .filter(|i| types.contains(&i.name.value))
                     .cloned()
                     .collect(),
-                automata: file.automata.iter().filter(|a| names.contains(&a.name.value)).cloned().collect(),
+                automata: file.automata.iter().filter(|a| types.contains(&a.name.value)).cloned().collect(),
                 devices: file.devices.clone(),
             };
             (*id, tree)
@@ -53,7 +56,8 @@ pub fn used(files: &[(FileId, ast::File)], automata: &BTreeSet<String>) -> Vec<(
         .collect()
 }
 
-fn of_automaton(automaton: &ast::Automaton) -> Vec<String> {
+/// The types that its declarations name.
+fn of_head(automaton: &ast::Automaton) -> Vec<String> {
     let mut names: Vec<String> = automaton.implements.iter().map(|i| i.interface.value.clone()).collect();
     for role in &automaton.roles {
         names.push(role.interface.value.clone());
@@ -62,11 +66,10 @@ fn of_automaton(automaton: &ast::Automaton) -> Vec<String> {
     names.extend(automaton.parameters.iter().flat_map(|p| of_type(&p.ty)));
     names.extend(automaton.cells.iter().flat_map(|c| of_type(&c.ty)));
     names.extend(automaton.locals.iter().flat_map(|l| of_type(&l.ty)));
-    of_text(automaton, &mut names);
     names
 }
 
-/// All words of the expressions: an enumeration may be mentioned there only, by its name or a member's.
+/// All words of the expressions: an enumeration may be mentioned there only, by its name or that of a member.
 fn of_text(automaton: &ast::Automaton, names: &mut Vec<String>) {
     automaton.defines.iter().for_each(|d| of_expr(&d.value, names));
     for require in &automaton.requires {
@@ -190,4 +193,33 @@ fn of_type(ty: &ast::Type) -> Vec<String> {
         names.push(name.clone());
     }
     names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::parser;
+
+    #[test]
+    fn a_word_of_an_expression_is_no_automaton_and_no_interface() {
+        let text = "enum Goal { Start, Tray }
+            enum Other { Conveyor }
+            interface Tray { shared full: bool by owner; }
+            automaton Conveyor on belt is Tray { initial state A { when full -> A { full := false; } } }
+            automaton Mill on mill { local to: Goal; initial state A { when to = Start -> A { to := Tray; } } }
+            automaton Saw on mill { knows trays: Tray[]; initial state A { when exists t in trays: t.full -> A {} } }";
+        let (file, wrong) = parser::parse(FileId(0), text);
+        assert!(wrong.is_empty(), "{wrong:?}");
+        let files = [(FileId(0), file)];
+        let names = |automaton: &str| {
+            let found = used(&files, &BTreeSet::from([automaton.to_string()])).remove(0).1;
+            let automata = found.automata.iter().map(|it| it.name.value.clone());
+            let others =
+                found.interfaces.iter().map(|it| &it.name).chain(found.enums.iter().map(|it| &it.name));
+            automata.chain(others.map(|name| name.value.clone())).collect::<Vec<_>>()
+        };
+        assert_eq!(names("Mill"), ["Mill", "Goal"]);
+        assert_eq!(names("Saw"), ["Saw", "Tray"]);
+        assert_eq!(names("Conveyor"), ["Conveyor", "Tray"]);
+    }
 }
