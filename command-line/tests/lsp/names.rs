@@ -319,10 +319,14 @@ fn completion_knows_what_can_stand_there() {
     line.text = desks().replace("    knows", "    |\n    knows");
     has(&line.completed("loc"), &["local", "state", "any state", "require"]);
     has(&line.completed("local x: "), &["int", "Phase", "Desk"]);
+    has(&line.completed("local x: "), &["Clerk"]);
     has(&line.completed("serves others: "), &["Desk"]);
     line.text = desks() + "|";
     assert_eq!(line.completed("aut"), ["assembly", "automaton", "device", "enum", "interface"]);
     has(&line.completed("automaton Other on "), &["vehicle", "stamping_station"]);
+    assert_eq!(line.completed("automaton Other on vehicle is Desk accepts at "), ["stops"]);
+    has(&line.completed("interface Shelf { shared full: bool := "), &["true", "false", "Idle"]);
+    has(&line.completed("interface Shelf { shared full: bool by owner; invariant "), &["full", "not"]);
     has(&line.completed("device press { part p = "), &["cylinder", "lane", "route"]);
     has(&line.completed("device press { part p = cylinder { "), &["extend", "retract"]);
     has(
@@ -394,6 +398,8 @@ fn words_behind_words_of_the_language_are_offered() {
         ("shared x: bool := false by handshake ", &[]),
         ("invariant n < 5 else ", &["stop", "warn"]),
         ("invariant n < 5 else stop ", &["line", "machine"]),
+        ("shared x: bool := false ", &["by"]),
+        ("any state except Waiting, ", &["Going", "Waiting"]),
     ] {
         assert_eq!(line.completed(before), words, "{before}");
     }

@@ -167,6 +167,9 @@ impl<'t> Place<'t> {
         let declares = ["parameter", "shared", "local", "in", "out", "constant"].contains(&first);
         match (item, self.open.len(), last) {
             ("automaton", 0, Some(Token::Word(word))) if word == "on" => named(specs, &[What::Device], ""),
+            ("automaton", 0, Some(Token::Word(word))) if word == "at" => {
+                named(specs, &[What::Handover], device_of_head(self.statement))
+            }
             ("automaton", 0, _) => {
                 let mut words = of_language(&["on", "is", "accepts at", "offers at", "approach"]);
                 words.extend(named(specs, &[What::Interface], ""));
@@ -184,11 +187,33 @@ impl<'t> Place<'t> {
             }
             ("device" | "assembly", 1, None) => of_language(OF_DEVICE),
             ("interface", 1, None) => of_language(OF_INTERFACE),
-            (_, _, Some(Token::Sign(":"))) if declares => types(specs),
+            (item, _, Some(Token::Sign(":"))) if declares => {
+                let mut words = types(specs);
+                if item == "automaton" {
+                    words.extend(named(specs, &[What::Automaton], ""));
+                }
+                words
+            }
             ("automaton", _, Some(Token::Sign(":" | "("))) if is_role(first) => {
                 named(specs, &[What::Interface, What::Automaton], "")
             }
             ("automaton", _, Some(Token::Sign("->"))) => named(specs, &[What::State], name),
+            ("automaton", 1, Some(Token::Sign(","))) if is_any_state(self.statement) => {
+                named(specs, &[What::State], name)
+            }
+            ("automaton" | "interface", 1, Some(last))
+                if first == "shared" && self.statement.contains(&Token::Sign(":")) && ends_value(last) =>
+            {
+                of_language(&["by"])
+            }
+            ("interface", 1, _)
+                if self.statement.contains(&Token::Sign(":=")) || first != "shared" && !declares =>
+            {
+                let mut words = of_language(IN_EXPRESSIONS);
+                words.extend(named(specs, &[What::Parameter, What::Cell], name));
+                words.extend(values(specs));
+                words
+            }
             ("automaton", _, Some(Token::Word(word))) if ["except", "else"].contains(&word.as_str()) => {
                 named(specs, &[What::State], name)
             }
@@ -222,8 +247,7 @@ impl<'t> Place<'t> {
         words.extend(named(specs, &[What::Port, What::Constant, What::Command], &device));
         words.extend(self.variables(specs, name));
         if !self.statement.is_empty() {
-            words.extend(all(specs, |declaration| declaration.what == What::Member));
-            words.extend(named(specs, &[What::Enumeration], ""));
+            words.extend(values(specs));
         }
         words
     }
@@ -307,6 +331,31 @@ impl<'t> Place<'t> {
             ty => named(specs, &[What::Cell, What::Parameter], ty),
         }
     }
+}
+
+/// Of enumerations.
+fn values(specs: &Specs) -> Vec<Word> {
+    let mut words = all(specs, |declaration| declaration.what == What::Member);
+    words.extend(named(specs, &[What::Enumeration], ""));
+    words
+}
+
+/// In `automaton Mill on mill is ...`, the word behind `on`.
+fn device_of_head(statement: &[Token]) -> &str {
+    let on = statement.iter().position(|token| as_word(token) == Some("on"));
+    on.and_then(|on| statement.get(on + 1)).and_then(as_word).unwrap_or_default()
+}
+
+fn is_any_state(statement: &[Token]) -> bool {
+    let words = ["any", "state", "except"];
+    statement.len() > 3 && statement.iter().zip(words).all(|(token, word)| as_word(token) == Some(word))
+}
+
+/// Whether a value, a type or a name can end with this.
+fn ends_value(token: &Token) -> bool {
+    matches!(token, Token::Word(word) if !["not", "and", "or", "mod", "by", "shared"].contains(&word.as_str()))
+        || matches!(token, Token::Sign(")" | "]"))
+        || !matches!(token, Token::Word(_) | Token::Sign(_))
 }
 
 /// That of the steps of a sequence, before their braces.

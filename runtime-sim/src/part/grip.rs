@@ -10,6 +10,9 @@ use crate::kinematics::arm::direction_of;
 use crate::kinematics::pose::Pose;
 use crate::point::Point;
 
+/// The first signal: an item hangs on it.
+pub const HOLDS: usize = 0;
+
 pub const SCHEMA: Schema = Schema {
     signals: &[
         Signal { name: "holds", ty: PortType::Bool, extent: Extent::One },
@@ -259,7 +262,7 @@ impl Running for Gripping {
     }
 
     fn signal(&self, signal: usize, _see: &See, out: &mut [f64]) {
-        let shown = if signal == 0 { self.reports() } else { self.is_open() };
+        let shown = if signal == HOLDS { self.reports() } else { self.is_open() };
         out[0] = f64::from(u8::from(shown));
     }
 

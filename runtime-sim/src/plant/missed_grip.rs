@@ -4,6 +4,7 @@ use super::Plant;
 use super::gripping::faces;
 use crate::carrier::Carrier;
 use crate::part::Gripper;
+use crate::part::grip::HOLDS;
 use crate::point::Point;
 use crate::shortage::point_text;
 
@@ -17,10 +18,11 @@ struct Nearest {
 impl Plant {
     /// Of the commands that have waited in vain in the scan that ends at `next_ms`.
     pub(super) fn note_missed_grips(&mut self, next_ms: u64) {
-        for machine in 0..self.machines.len() {
-            let Some(waited) = self.machines[machine].take_waited_in_vain() else { continue };
+        for number in 0..self.grippers.len() {
+            let (machine, part) = self.grippers[number];
+            let Some(waited) = self.machines[machine].take_waited_in_vain(part, HOLDS) else { continue };
             let see = self.machines[machine].see(&self.items, &self.desk);
-            if let Some(gripper) = self.machines[machine].gripper(waited.awaited.part, &see) {
+            if let Some(gripper) = self.machines[machine].gripper(part, &see) {
                 let reason = self.why_nothing(&gripper);
                 self.machines[machine].note_missed(waited, reason, next_ms);
             }

@@ -58,7 +58,7 @@ pub struct Working {
     /// Items that its grippers have taken.
     picks: u32,
     missed: MissedCommands,
-    /// In the last scan a command has waited for a signal too long.
+    /// The last command that has waited for a signal too long, until somebody takes it.
     waited_in_vain: Option<WaitedInVain>,
     faults: Faults,
     pub(super) idle: Idle,
@@ -146,8 +146,9 @@ impl Working {
         self.picks
     }
 
-    pub fn take_waited_in_vain(&mut self) -> Option<WaitedInVain> {
-        self.waited_in_vain.take()
+    /// The command that has waited in vain for this signal of a part in this scan.
+    pub fn take_waited_in_vain(&mut self, part: usize, signal: usize) -> Option<WaitedInVain> {
+        self.waited_in_vain.take_if(|waited| (waited.awaited.part, waited.awaited.signal) == (part, signal))
     }
 
     /// Why the command ended that has waited in vain.

@@ -118,7 +118,7 @@ fn answer_text(code: i32, why: Option<&str>) -> String {
         error::NO_PART => why.unwrap_or("nothing was gripped"),
         error::REFUSED => "the device refused it",
         error::WITHDRAWN => "it was withdrawn",
-        _ => "see the type of the device",
+        _ => why.unwrap_or("see the type of the device"),
     };
     format!("a command ended in error {code}: {meaning}")
 }
