@@ -17,7 +17,7 @@ pub enum Unusable {
     LeadsOut,
     /// A symbolic link in a folder of automata that leads out of it.
     LinkLeadsOut(PathBuf),
-    /// One of the files of a folder of automata.
+    /// One of the files of a folder of automata cannot be read.
     EntryUnread(PathBuf, io::Error),
     /// A folder without automata.
     NoAutomata,

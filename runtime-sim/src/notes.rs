@@ -2,9 +2,9 @@
 
 use crate::item::Names;
 use crate::line::{Line, LineButton};
-use crate::plant::{Entry, NotRemoved, Plant};
+use crate::plant::{Entry, NotRemoved, Plant, Time};
 use crate::report::{MissedReport, Outcome, carrier_text, seconds};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the scenario has go wrong, or somebody do, that did not happen, a line each.
 pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String> {
@@ -85,34 +85,36 @@ pub fn not_reached(line: &Line, plant: &Plant, outcome: &Outcome) -> Vec<String>
         .collect()
 }
 
-/// Lines about commands that ended in an error of reach, or gripped nothing.
+/// Lines about commands that ended in one error.
 const MOST_MISSED: usize = 5;
 
 /// Commands that ended in an error of reach, or gripped nothing, a line each.
 pub fn missed(line: &Line, plant: &Plant) -> Vec<String> {
-    let machines = line.machines.iter().enumerate();
-    let mut entries: Vec<_> = machines
-        .flat_map(|(index, machine)| {
-            let entries = plant.missed(index).into_iter().flat_map(|missed| missed.entries());
-            entries.map(|entry| (&machine.name, entry))
-        })
-        .collect();
+    let mut of_errors: BTreeMap<i32, Vec<(&str, &Entry)>> = BTreeMap::new();
+    for (index, machine) in line.machines.iter().enumerate() {
+        for entry in plant.missed(index).into_iter().flat_map(|missed| missed.entries()) {
+            of_errors.entry(entry.error).or_default().push((&machine.name, entry));
+        }
+    }
+    of_errors.into_iter().flat_map(|(error, entries)| missed_in(error, entries)).collect()
+}
+
+fn missed_in(error: i32, mut entries: Vec<(&str, &Entry)>) -> Vec<String> {
     entries.sort_by_key(|(_, entry)| entry.first_ms);
-    let more = entries.len().saturating_sub(MOST_MISSED);
-    let one = |(name, entry): &(&String, &Entry)| {
-        let Entry { command, error, reason, count, first_ms } = entry;
+    let shown = entries.len().min(MOST_MISSED);
+    let one = |(name, entry): &(&str, &Entry)| {
+        let Entry { command, reason, count, first_ms, .. } = entry;
         let first_s = *first_ms as f64 / 1000.0;
         let often = if *count > 1 { format!(", {count} times") } else { String::new() };
         format!("command {command} of {name} ended in error {error} at {first_s:.2} s{often}: {reason}")
     };
-    let mut notes: Vec<String> = entries.iter().take(MOST_MISSED).map(one).collect();
-    if more > 0 {
-        let machines: BTreeSet<&str> = entries[MOST_MISSED..].iter().map(|(name, _)| name.as_str()).collect();
+    let mut notes: Vec<String> = entries[..shown].iter().map(one).collect();
+    let others = &entries[shown..];
+    if !others.is_empty() {
+        let count: u32 = others.iter().fold(0, |sum, (_, entry)| sum.saturating_add(entry.count));
+        let machines: BTreeSet<&str> = others.iter().map(|(name, _)| *name).collect();
         let machines: Vec<&str> = machines.into_iter().take(MOST_MISSED).collect();
-        notes.push(format!(
-            "{more} more commands ended in an error of reach or gripped nothing, of {}",
-            machines.join(", ")
-        ));
+        notes.push(format!("{count} more commands ended in error {error}, of {}", machines.join(", ")));
     }
     notes
 }
@@ -121,9 +123,11 @@ pub fn missed(line: &Line, plant: &Plant) -> Vec<String> {
 pub fn missed_times(line: &Line, plant: &Plant) -> Vec<MissedReport> {
     let of = |machine: usize| {
         let times = plant.missed(machine).into_iter().flat_map(|missed| missed.times());
-        times.map(move |(at_ms, entry)| {
-            let Entry { error, reason, .. } = entry;
-            MissedReport { machine, at_ms, error: *error, text: reason.clone() }
+        times.map(move |Time { at_ms, error, reason }| MissedReport {
+            machine,
+            at_ms: *at_ms,
+            error: *error,
+            text: reason.to_string(),
         })
     };
     (0..line.machines.len()).flat_map(of).collect()

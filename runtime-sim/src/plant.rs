@@ -38,7 +38,7 @@ pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use fall::Falling;
 use gripping::{Lying, NextLook};
 use mishap::Mishap;
-pub(crate) use missed::{Entry, MissedCommands};
+pub(crate) use missed::{Entry, MissedCommands, Time};
 pub use removing::NotRemoved;
 use removing::Removing;
 use trajectory::Trajectory;

@@ -124,8 +124,10 @@ fn a_tool_that_cannot_be_turned_so_is_not_said_to_be_out_of_reach() {
     );
 }
 
+const VACUUM: &str = "period: 20 ms; looks: 2;";
+
 /// A cup that picks at a place, from a belt on which a box stands at (0.9, 0, 0.7), 0.1 m high.
-fn notes_of_picks(place: &str, closes: bool, boxes: u32) -> Vec<String> {
+fn notes_of_picks(cup: &str, place: &str, closes: bool) -> Vec<String> {
     let specs = vec![
         "device picker {
             part infeed = lane { from: origin * frame(0, 0, 0.7, 0); length: 1.0; width: 0.2; speed: 0.25; };
@@ -134,7 +136,7 @@ fn notes_of_picks(place: &str, closes: bool, boxes: u32) -> Vec<String> {
             part slide = axis { from: origin * frame(0.8, 0, 1.25, 0); along: x; range: [0, 0.8]; speed: 1; acceleration: 4; };
             part lift = axis { on: slide; along: z; range: [-0.4, 0]; speed: 0.6; acceleration: 4; };
             part robot = chain { on: lift; tool_length: 0.1; rest: origin * point(0.9, 0, 1.0); };
-            part cup = grip { on: robot; period: 20 ms; looks: 2; near: 0.02; };
+            part cup = grip { on: robot; near: 0.02; CUP };
             in at_end: bool = eye.sees;
             out run: bool = infeed.run stop false;
             out grip: bool = cup.close;
@@ -153,30 +155,40 @@ fn notes_of_picks(place: &str, closes: bool, boxes: u32) -> Vec<String> {
             state Once { when tries < 2 -> Picking {} when tries >= 2 -> Ended {} }
             final state Ended;
         }"
-        .into(),
+        .replace("CUP", cup),
     ];
     let layout = format!(
         r#"{{"robots": [{{"name": "arm", "type": "picker", "pose": [0, 0, 0], "parameters": {{"place": {place}, "closes": {closes}}}}}]}}"#
     );
-    let scenario = format!(
-        r#"{{"kinds": [{{"name": "box", "height": 0.1, "size": [0.1, 0.1]}}],
-            "supply": {{"items": ["box"], "times": {boxes}, "every_s": 1}}, "time_limit_s": 20}}"#
-    );
-    run(&Texts { layout, specs, scenario: Some(scenario), ..Texts::default() }).notes
+    let scenario = r#"{"kinds": [{"name": "box", "height": 0.1, "size": [0.1, 0.1]}],
+        "supply": {"items": ["box"]}, "time_limit_s": 20}"#;
+    run(&Texts { layout, specs, scenario: Some(scenario.into()), ..Texts::default() }).notes
 }
 
 #[test]
 fn notes_say_why_nothing_was_gripped() {
-    assert_eq!(notes_of_picks("[0.9, 0, 0.8]", true, 1), Vec::<String>::new());
+    assert_eq!(notes_of_picks(VACUUM, "[0.9, 0, 0.8]", true), Vec::<String>::new());
     let is_said = |notes: &[String], reason: &str| {
         let [note] = notes else { panic!("{notes:?}") };
         assert!(note.starts_with("command 2 of arm ended in error 2 at "), "{note}");
         assert!(note.ends_with(reason), "{note}");
     };
     is_said(
-        &notes_of_picks("[0.94, 0, 0.83]", true, 1),
+        &notes_of_picks(VACUUM, "[0.94, 0, 0.83]", true),
         " s, 2 times: nothing was gripped at (0.940, 0.000, 0.830): the nearest item, box_1, is gripped at \
-         (0.900, 0.000, 0.800), 50 mm away, and the gripper takes it within 20 mm",
+         (0.900, 0.000, 0.800), 50.0 mm away, and the gripper takes it within 20.0 mm",
     );
-    is_said(&notes_of_picks("[0.9, 0, 0.8]", false, 1), "(0.900, 0.000, 0.800): the gripper is not closed");
+    is_said(
+        &notes_of_picks(VACUUM, "[0.9, 0, 0.8]", false),
+        "(0.900, 0.000, 0.800): the gripper is not closed",
+    );
+    let fingers = |closes: u32| {
+        let cup = format!("closes: {closes} ms; opens: 300 ms; sure_after: 1000 ms;");
+        notes_of_picks(&cup, "[0.9, 0, 0.8]", true)
+    };
+    is_said(&fingers(800), ": box_1 is held, which the gripper reports later than the command waits for it");
+    is_said(
+        &fingers(100),
+        ": box_1 is there, but the gripper has not taken it: it looked before the tool came, or the command does not wait long enough",
+    );
 }

@@ -70,12 +70,12 @@ impl Documents {
                 (TextDocumentContentChangeEvent::TextDocumentContentChangePartial(_), None) => None,
             };
         }
-        self.keep(path, Document { version, text, ..document });
+        self.keep(path, Document { uri: uri.clone(), version, text });
     }
 
-    /// A file that is open under another address too stays open.
-    pub fn close(&mut self, uri: &Uri) {
-        let Some(path) = self.path(uri) else { return };
+    /// A file that is open under another address too stays open. The file, if it does not.
+    pub fn close(&mut self, uri: &Uri) -> Option<PathBuf> {
+        let path = self.path(uri)?;
         self.paths.remove(uri);
         let other = self.paths.iter().find(|(_, open)| **open == path).map(|(uri, _)| uri.clone());
         match other {
@@ -83,10 +83,12 @@ impl Documents {
                 if let Some(document) = self.open.get_mut(&path) {
                     document.uri = other;
                 }
+                None
             }
             None => {
                 self.open.remove(&path);
                 read::open_as(&path, None);
+                Some(path)
             }
         }
     }

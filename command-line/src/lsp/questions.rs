@@ -208,14 +208,25 @@ impl Questions {
         let asked_in = asked.documents.get(asked.uri).map(|(path, _)| (path.to_path_buf(), asked.position));
         // Of each file of automata one place of the name.
         let mut places: Vec<(PathBuf, Position)> = asked_in.into_iter().collect();
-        let mut next = 0;
+        let (mut next, mut has_place) = (0, false);
         while let Some((path, position)) = places.get(next).cloned() {
             next += 1;
             let roots = roots_of_all(&path, asked, layouts)?;
             let new: Vec<Root> = roots.into_iter().filter(|root| searched.insert(root.clone())).collect();
             self.learn(&new);
+            if let Some(layout) = new
+                .iter()
+                .filter(|root| self.known.get(*root).is_none_or(Option::is_none))
+                .find_map(Root::layout)
+            {
+                return Err(format!(
+                    "{} cannot be read with all that it names: correct that first",
+                    layout.display()
+                ));
+            }
             let specs = new.iter().filter_map(|root| self.known.get(root)?.as_ref());
             for at in specs.filter_map(|specs| at(specs, asked.documents, &path, position)) {
+                has_place = true;
                 for (span, new_text) in rename::rename(at.specs, at.span(), name)? {
                     let location = at.files.location(span);
                     let location = location.ok_or("a file that has to be changed is not on this machine")?;
@@ -232,7 +243,7 @@ impl Questions {
                 }
             }
         }
-        if changes.is_empty() {
+        if !has_place {
             return Err("there is no name here that can be renamed".into());
         }
         Ok(WorkspaceEdit { changes: Some(changes), ..WorkspaceEdit::default() })

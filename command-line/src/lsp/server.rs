@@ -234,11 +234,9 @@ impl<W: Write> Server<W> {
                 let Ok(params) = serde_json::from_value::<DidCloseTextDocumentParams>(params) else {
                     return Next::Ready;
                 };
-                let uri = &params.text_document.uri;
-                if let Some((path, _)) = self.documents.get(uri) {
-                    self.layouts.close(path);
+                if let Some(path) = self.documents.close(&params.text_document.uri) {
+                    self.layouts.close(&path);
                 }
-                self.documents.close(uri);
             }
             // Another file may have changed on the disk.
             (Stage::Running, LspNotificationMethod::TextDocumentDidSave)
@@ -327,7 +325,7 @@ fn folders(params: &Value) -> Vec<PathBuf> {
     uris.filter_map(|text| read::real(&uri::path(&text.into())?)).collect()
 }
 
-/// The client is to tell of all files that belong to lines, by whomever they are changed.
+/// The client is to tell of all files that belong to lines, whoever changes them.
 fn watch() -> Value {
     let watchers = json!([{"globPattern": "**/*.{aut,json,test}"}]);
     let registration = json!({

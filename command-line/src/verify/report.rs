@@ -141,8 +141,8 @@ impl Report<'_> {
                     bounds.push(format!("whether what a `whenever` waits for can come is not decided: {why}"));
                 }
                 None if self.outcome.violations.iter().any(is_refuted) => {}
-                None if !self.outcome.violations.is_empty() => bounds.push(
-                    "what a `whenever` waits for can still come, or one of these violations, after which nothing is decided; whether it comes in time is not decided"
+                None if self.outcome.violations.iter().any(ends_the_search) => bounds.push(
+                    "after any number of scans either what a `whenever` waits for can still come, or one of these violations; whether it comes in time is not decided"
                         .into(),
                 ),
                 None => bounds.push(
@@ -327,6 +327,11 @@ impl Report<'_> {
 
 /// Why something is left open.
 const HIDDEN: &str = "items on conveyors without commands, cylinders, positioners and tracks are not known";
+
+/// Whether the search does not continue after a violation.
+fn ends_the_search<T>((violation, _): &(Violation, T)) -> bool {
+    !matches!(violation, Violation::Warning { .. } | Violation::MachineStops { .. } | Violation::NeverMade)
+}
 
 fn never_entered<'a>(teller: &Teller<'a>, outcome: &Outcome) -> Vec<(&'a str, Vec<&'a str>)> {
     let (system, instances) = (&teller.project.system, &teller.model.instances);

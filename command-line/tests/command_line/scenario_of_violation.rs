@@ -115,7 +115,7 @@ fn what_is_waited_for_can_come_only_if_nothing_else_was_found() {
     assert!(!bounds("is_never_followed", "0").contains(promise));
     // Another violation ends the search there.
     let violated = bounds("is_violated_instead", "2 * n + 1");
-    assert!(violated.contains("can still come, or one of these violations") && !violated.contains(promise));
+    assert!(violated.contains("can still come, or one of these violations;") && !violated.contains(promise));
 }
 
 /// What only a refused command brings about is no end for what is waited for.

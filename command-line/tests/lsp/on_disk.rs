@@ -77,11 +77,17 @@ fn all_lines_that_have_a_file_that_is_changed_are_changed() {
     for (file, text) in [(&of_a, DEVICE), (&of_b, DEVICE), (&shared, AUTOMATON)] {
         assert_eq!(begins(&answer, file), [place(text, "closed", 0)], "{}: {answer}", file.display());
     }
+    let answer = rename(&mut client, &of_a, DEVICE, "closed", "closed");
+    assert_eq!(answer["result"]["changes"], json!({}), "{answer}");
     // What the other line does not allow is not done.
     let other = DEVICE.replace("in closed", "in is_shut: bool = pedal.on; in closed");
     put(&folder, "mill_b.aut", &other);
     let answer = rename(&mut client, &of_a, DEVICE, "closed", "is_shut");
     assert_eq!(answer["error"]["code"], -32803, "{answer}");
+    put(&folder, "b.json", &layout(r#"["mill_b.aut", "auto.aut", "gone.aut"]"#));
+    let answer = rename(&mut client, &of_a, DEVICE, "closed", "is_shut");
+    let why = answer["error"]["message"].as_str().unwrap_or_default();
+    assert!(why.contains("b.json cannot be read with all that it names"), "{answer}");
 }
 
 #[test]

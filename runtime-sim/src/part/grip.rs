@@ -251,7 +251,7 @@ impl Running for Gripping {
 
     fn gripper(&self, see: &See) -> Option<Gripper> {
         let Grip { chain, near, .. } = self.grip;
-        Some(Gripper { tool: see.tool(chain)?, near, is_closed: self.close == Close::On })
+        Some(Gripper { tool: see.tool(chain)?, near, is_closed: self.close == Close::On, held: self.held })
     }
 
     fn looks(&self) -> Option<Looks> {

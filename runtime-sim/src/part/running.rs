@@ -71,6 +71,8 @@ pub struct Gripper {
     /// It takes what is gripped no farther from the tool, m.
     pub near: f64,
     pub is_closed: bool,
+    /// What hangs on it, be it reported or not.
+    pub held: Option<usize>,
 }
 
 /// How a part looks for an item.

@@ -1,9 +1,20 @@
 //! Commands of a machine that ended in an error of reach or gripped nothing, and why.
 
-/// Different ones that are remembered: a line that tries on for a day needs no more memory.
+use std::fmt::{self, Display, Formatter};
+
+/// Different ones of each error that are remembered: a line that tries on for a day needs no more memory.
 const MOST: usize = 50;
 /// Times that are remembered.
 const MOST_TIMES: usize = 1_000;
+
+/// Why a command ended in an error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reason {
+    /// With the place: commands of which this is the same count as one.
+    pub what: String,
+    /// How it was that time; empty if that is all.
+    pub details: String,
+}
 
 /// The same command that ended for the same reason.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,36 +23,38 @@ pub struct Entry {
     pub command: i32,
     /// In which it ended.
     pub error: i32,
-    /// What of, with the place.
-    pub reason: String,
+    /// Of the first time.
+    pub reason: Reason,
     pub count: u32,
     pub first_ms: u64,
+}
+
+/// One of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Time {
+    pub at_ms: u64,
+    pub error: i32,
+    pub reason: Reason,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MissedCommands {
     entries: Vec<Entry>,
-    /// When, ms from the start of the run, and which entry.
-    times: Vec<(u64, usize)>,
+    times: Vec<Time>,
 }
 
 impl MissedCommands {
-    pub fn add(&mut self, command: i32, error: i32, reason: String, at_ms: u64) {
-        let is_same =
-            |entry: &Entry| (entry.command, entry.error, &entry.reason) == (command, error, &reason);
-        let number = match self.entries.iter().position(is_same) {
-            Some(known) => {
-                self.entries[known].count = self.entries[known].count.saturating_add(1);
-                known
-            }
-            None if self.entries.len() < MOST => {
-                self.entries.push(Entry { command, error, reason, count: 1, first_ms: at_ms });
-                self.entries.len() - 1
-            }
-            None => return,
-        };
+    pub fn add(&mut self, command: i32, error: i32, reason: Reason, at_ms: u64) {
         if self.times.len() < MOST_TIMES {
-            self.times.push((at_ms, number));
+            self.times.push(Time { at_ms, error, reason: reason.clone() });
+        }
+        let is_same = |entry: &&mut Entry| {
+            (entry.command, entry.error, &entry.reason.what) == (command, error, &reason.what)
+        };
+        if let Some(known) = self.entries.iter_mut().find(is_same) {
+            known.count = known.count.saturating_add(1);
+        } else if self.entries.iter().filter(|entry| entry.error == error).count() < MOST {
+            self.entries.push(Entry { command, error, reason, count: 1, first_ms: at_ms });
         }
     }
 
@@ -51,7 +64,14 @@ impl MissedCommands {
     }
 
     /// In the order of time.
-    pub fn times(&self) -> impl Iterator<Item = (u64, &Entry)> {
-        self.times.iter().map(|(at_ms, number)| (*at_ms, &self.entries[*number]))
+    pub fn times(&self) -> &[Time] {
+        &self.times
+    }
+}
+
+impl Display for Reason {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.what)?;
+        if self.details.is_empty() { Ok(()) } else { write!(f, ": {}", self.details) }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Plant;
 use super::gripping::faces;
+use super::missed::Reason;
 use crate::carrier::Carrier;
 use crate::part::Gripper;
 use crate::part::grip::HOLDS;
@@ -29,26 +30,34 @@ impl Plant {
         }
     }
 
-    fn why_nothing(&self, gripper: &Gripper) -> String {
-        let nothing = format!("nothing was gripped at {}", point_text(gripper.tool.position));
+    fn why_nothing(&self, gripper: &Gripper) -> Reason {
+        let what = format!("nothing was gripped at {}", point_text(gripper.tool.position));
+        Reason { what, details: self.details(gripper) }
+    }
+
+    fn details(&self, gripper: &Gripper) -> String {
+        if let Some(item) = gripper.held {
+            let name = self.names.name(item);
+            return format!("{name} is held, which the gripper reports later than the command waits for it");
+        }
         if !gripper.is_closed {
-            return format!("{nothing}: the gripper is not closed");
+            return "the gripper is not closed".into();
         }
         let Some(Nearest { item, grip, distance }) = self.nearest(gripper.tool.position) else {
-            return format!("{nothing}: there is no item that another gripper does not hold");
+            return "no item lies anywhere, but those in grippers".into();
         };
         let name = self.names.name(item);
         if distance > gripper.near {
             let [distance, near] = [distance, gripper.near].map(|length| 1000.0 * length);
             return format!(
-                "{nothing}: the nearest item, {name}, is gripped at {}, {distance:.0} mm away, and the gripper takes it within {near:.0} mm",
+                "the nearest item, {name}, is gripped at {}, {distance:.1} mm away, and the gripper takes it within {near:.1} mm",
                 point_text(grip)
             );
         }
         match faces(&gripper.tool, self.upper(item)) {
-            false => format!("{nothing}: the upper side of {name} there does not face the tool"),
+            false => format!("the upper side of {name}, which is there, does not face the tool"),
             true => format!(
-                "{nothing}: {name} is there, but was not for long enough while the gripper looked for it"
+                "{name} is there, but the gripper has not taken it: it looked before the tool came, or the command does not wait long enough"
             ),
         }
     }
@@ -60,6 +69,6 @@ impl Plant {
             let grip = self.grip_point(item)?;
             Some(Nearest { item, grip, distance: (grip - tool).length() })
         });
-        all.min_by(|a, b| a.distance.total_cmp(&b.distance))
+        all.min_by(|a, b| a.distance.total_cmp(&b.distance).then(a.item.cmp(&b.item)))
     }
 }

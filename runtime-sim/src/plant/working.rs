@@ -6,7 +6,7 @@ use super::command::{Answer, Asked, Head};
 use super::fall::{Falling, SINK};
 use super::faults::Faults;
 use super::idle::Idle;
-use super::missed::MissedCommands;
+use super::missed::{MissedCommands, Reason};
 use super::phase::Phase;
 use crate::carrier::Carrier;
 use crate::device::error;
@@ -155,7 +155,7 @@ impl Working {
     pub fn note_missed(
         &mut self,
         WaitedInVain { command, awaited }: WaitedInVain,
-        reason: String,
+        reason: Reason,
         at_ms: u64,
     ) {
         self.missed.add(self.wiring.commands[command].number, awaited.error, reason, at_ms);
@@ -235,7 +235,8 @@ impl Working {
         if error == error::UNREACHABLE
             && let Some(missed) = part.and_then(|part| part.missed())
         {
-            self.missed.add(asked.number, error, missed.to_string(), ends_ms);
+            let reason = Reason { what: missed.to_string(), details: String::new() };
+            self.missed.add(asked.number, error, reason, ends_ms);
         }
         self.end(error, ends_ms);
     }
