@@ -304,7 +304,7 @@ impl Plant {
     }
 
     /// Where an item is gripped: over the middle of its underside.
-    pub(super) fn grip_point(&self, item: usize) -> Option<Point> {
+    fn grip_point(&self, item: usize) -> Option<Point> {
         let (place, grasp) = (self.place(item)?, self.grasp(item));
         Some(match self.upper(item) {
             Some(upper) => place + upper.scaled(grasp),
@@ -312,14 +312,16 @@ impl Plant {
         })
     }
 
+    /// Of all items that no gripper holds.
+    pub(super) fn grip_points(&self) -> impl Iterator<Item = (usize, Point)> {
+        let lies = |item: &usize| !matches!(self.base_carrier(*item), Carrier::Grip { .. });
+        self.items.placed().filter(lies).filter_map(|item| Some((item, self.grip_point(item)?)))
+    }
+
     /// The item nearest to the tool among those that are gripped no farther from it and face it; the first of equals.
     fn contact(&self, tool: &Pose, near: f64) -> Option<usize> {
         let mut nearest: Option<(f64, usize)> = None;
-        for index in self.items.placed() {
-            if matches!(self.base_carrier(index), Carrier::Grip { .. }) {
-                continue;
-            }
-            let Some(grip) = self.grip_point(index) else { continue };
+        for (index, grip) in self.grip_points() {
             let gap = grip - tool.position;
             let square = gap.x * gap.x + gap.y * gap.y + gap.z * gap.z;
             if square <= near * near

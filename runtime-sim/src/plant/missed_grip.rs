@@ -3,7 +3,6 @@
 use super::Plant;
 use super::gripping::faces;
 use super::missed::Reason;
-use crate::carrier::Carrier;
 use crate::part::Gripper;
 use crate::part::grip::HOLDS;
 use crate::point::Point;
@@ -63,12 +62,8 @@ impl Plant {
     }
 
     fn nearest(&self, tool: Point) -> Option<Nearest> {
-        let lying =
-            self.items.placed().filter(|item| !matches!(self.base_carrier(*item), Carrier::Grip { .. }));
-        let all = lying.filter_map(|item| {
-            let grip = self.grip_point(item)?;
-            Some(Nearest { item, grip, distance: (grip - tool).length() })
-        });
+        let all =
+            self.grip_points().map(|(item, grip)| Nearest { item, grip, distance: (grip - tool).length() });
         all.min_by(|a, b| a.distance.total_cmp(&b.distance).then(a.item.cmp(&b.item)))
     }
 }

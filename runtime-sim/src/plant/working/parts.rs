@@ -5,6 +5,7 @@ use crate::part::lane::Moving;
 use crate::part::scanner::Scanning;
 use crate::part::stroke::Carriage;
 use crate::part::track::Driving;
+use crate::part::{Gripper, See};
 
 impl Working {
     pub fn lane(&self, part: usize) -> Option<&Moving> {
@@ -46,6 +47,11 @@ impl Working {
         {
             self.begin_phase();
         }
+    }
+
+    /// Of a part that is a gripper.
+    pub fn gripper(&self, part: usize, see: &See) -> Option<Gripper> {
+        self.parts.get(part)?.as_ref()?.gripper(see)
     }
 
     /// How many items a source was asked for, if it is asked for each.
