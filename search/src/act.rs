@@ -1,7 +1,7 @@
 //! What outputs do to the plant.
 
 use crate::event::{self, From};
-use crate::plant::{Action, Desk, Machine, Watch, motion, phase, status};
+use crate::plant::{Action, Desk, Machine, Place, Watch, motion, phase, status};
 use crate::program::bit;
 use crate::scan::Scan;
 use crate::surface::{self, Landing};
@@ -252,31 +252,44 @@ impl Scan<'_> {
         Ok(())
     }
 
+    /// Whether the items at a place are those of an order.
+    fn has_all_of(&mut self, order: usize, place: &Place) -> bool {
+        let stray = place.stray.map_or(0, |stray| stray.load(self.bytes));
+        if stray == event::others(self.model) {
+            return self.choices.take(2) == 1;
+        }
+        let count = |kind: usize| {
+            if place.by_kind {
+                return place.items[kind].load(self.bytes) as u32;
+            }
+            let all = place.items.iter().map(|item| item.load(self.bytes)).chain([stray]);
+            all.filter(|item| *item == kind as i32 + 1).count() as u32
+        };
+        let parts = self.model.orders[order].parts.iter().enumerate();
+        parts.into_iter().all(|(kind, wanted)| count(kind) == *wanted)
+    }
+
+    fn take_away(&mut self, place: &Place) {
+        place.items.iter().chain(&place.stray).for_each(|item| item.store(self.bytes, 0));
+    }
+
     fn serve(&mut self, machine: usize, plant: &Machine, desk: &Desk) -> Result<(), Violation> {
         let is_complete = desk.complete.is_some_and(|level| level.is_on(self.bytes));
         let order = desk.order.load(self.bytes) as usize;
         let place = &plant.places[desk.place];
         match desk.phase.load(self.bytes) {
             phase::OPEN if self.model.orders[order].made.load(self.bytes) != 0 => {
-                place.items.iter().for_each(|item| item.store(self.bytes, 0));
+                self.take_away(place);
                 desk.phase.store(self.bytes, phase::TAKEN);
             }
             phase::OPEN if is_complete => {
-                let count = |kind: usize| {
-                    if place.by_kind {
-                        return place.items[kind].load(self.bytes) as u32;
-                    }
-                    let items = place.items.iter().filter(|item| item.load(self.bytes) == kind as i32 + 1);
-                    items.count() as u32
-                };
-                let parts = self.model.orders[order].parts.iter().enumerate();
-                if !place.stacks && parts.into_iter().any(|(kind, wanted)| count(kind) != *wanted) {
+                if !place.stacks && !self.has_all_of(order, place) {
                     return match self.model.watch {
                         Watch::Everything => Err(Violation::WrongItems { machine, order }),
                         Watch::Faults => Ok(()),
                     };
                 }
-                place.items.iter().for_each(|item| item.store(self.bytes, 0));
+                self.take_away(place);
                 self.model.orders[order].made.store(self.bytes, 1);
                 desk.phase.store(self.bytes, phase::TAKEN);
             }

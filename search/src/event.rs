@@ -21,6 +21,8 @@ pub enum What {
     Loses(From),
     /// The gripper takes the item that is there.
     Takes,
+    /// It does where the motion under way has begun.
+    TakesAtStart,
     /// It becomes known whether an item hangs on the gripper.
     Shows,
     /// The next order opens.
@@ -123,6 +125,9 @@ pub(crate) fn events(model: &Model, values: &Values, state: &[u8], source: usize
         if holds == 0 && takes(model, values, state, plant, arm).is_some() {
             add(What::Takes);
         }
+        if holds == 0 && takes_at_start(model, values, state, plant, arm).is_some() {
+            add(What::TakesAtStart);
+        }
     }
     if let Some(desk) = &plant.desk {
         match desk.phase.load(state) {
@@ -212,6 +217,7 @@ pub(crate) fn is_guess(model: &Model, values: &Values, state: &[u8], event: &Eve
             found_at_goal(model, values, state, arm)
         }
         What::Takes => takes(model, values, state, plant, arm),
+        What::TakesAtStart => takes_at_start(model, values, state, plant, arm),
         _ => None,
     };
     found.is_some_and(|found| found.is_forgotten)
@@ -242,6 +248,25 @@ fn takes(model: &Model, values: &Values, state: &[u8], plant: &Machine, arm: &Ar
         }
         _ => surface::found(model, values, state, values.point(arm.tool.load(state)), arm.near),
     }
+}
+
+/// What the gripper may take as the arm sets out from it.
+fn takes_at_start(
+    model: &Model,
+    values: &Values,
+    state: &[u8],
+    plant: &Machine,
+    arm: &Arm,
+) -> Option<surface::Found> {
+    let head = plant.head.as_ref()?;
+    let (tool, goal) = (arm.tool.load(state), arm.goal.load(state));
+    let sets_out = head.status.load(state) == status::UNDER_WAY
+        && head.commands[head.command.load(state) as usize].action == Action::Motion
+        && goal != 0
+        && goal != tool;
+    let found = (sets_out && is_closed(arm, state))
+        .then(|| surface::found(model, values, state, values.point(tool), arm.near));
+    found.flatten().filter(|found| found.at != Landing::Elsewhere)
 }
 
 /// Where the gripper of an arm may lose an item of this kind; one place for each that makes a difference to where it
@@ -320,6 +345,12 @@ pub(crate) fn apply(model: &Model, values: &mut Values, state: &mut [u8], event:
         What::Takes => {
             let Some(arm) = &plant.arm else { return };
             if let Some(found) = takes(model, values, state, plant, arm) {
+                take(model, state, arm, found);
+            }
+        }
+        What::TakesAtStart => {
+            let Some(arm) = &plant.arm else { return };
+            if let Some(found) = takes_at_start(model, values, state, plant, arm) {
                 take(model, state, arm, found);
             }
         }
@@ -409,12 +440,20 @@ fn take(model: &Model, state: &mut [u8], arm: &Arm, found: surface::Found) {
     }
 }
 
-/// An item of this kind has come or gone: whether one is seen is open.
+/// An item of this kind has come or gone: whether one is seen is open, in all fields that share a part of this one.
 fn forget(model: &Model, state: &mut [u8], machine: usize, zone: usize, kind: usize) {
-    let zone = model.machines[machine].lane.as_ref().and_then(|lane| lane.zones.get(zone));
-    if let Some(input) = zone.and_then(|zone| zone.sees[kind]) {
-        model.inputs[input].var.store(state, 0);
+    let Some(lane) = &model.machines[machine].lane else { return };
+    let Some(own) = lane.zones.get(zone) else { return };
+    for zone in lane.zones.iter().filter(|zone| zone.overlaps(own)) {
+        if let Some(input) = zone.sees[kind] {
+            model.inputs[input].var.store(state, 0);
+        }
     }
+}
+
+/// What stands for several items beside the slots of a place, or for one that may have come to lie there.
+pub(crate) fn others(model: &Model) -> i32 {
+    model.grasps.len() as i32 + 1
 }
 
 /// An item comes to lie; onto another one, it falls off.
@@ -429,12 +468,13 @@ pub(crate) fn land(model: &Model, state: &mut [u8], landing: Landing, kind: usiz
             } else if held == 0 {
                 item.store(state, kind as i32 + 1);
             } else if let Some(stray) = place.stray {
-                stray.store(state, 1);
+                stray.store(state, others(model));
             }
         }
         Landing::Beside { machine, place } => {
             if let Some(stray) = model.machines[machine].places[place].stray {
-                stray.store(state, 1);
+                let is_first = stray.load(state) == 0;
+                stray.store(state, if is_first { kind as i32 + 1 } else { others(model) });
             }
         }
         Landing::Zone { machine, zone } => forget(model, state, machine, zone, kind),

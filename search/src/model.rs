@@ -31,7 +31,7 @@ pub struct Model {
     /// Items may be where the search does not know them.
     pub hides_items: bool,
     /// One of these places is carried, by a cylinder, a positioner or a vehicle on a track.
-    pub carries_hidden_items: bool,
+    pub has_hidden_places: bool,
     /// Heights of the kinds, m.
     pub heights: Vec<f64>,
     /// Heights over their undersides at which tools grip them, m.

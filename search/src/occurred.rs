@@ -77,7 +77,7 @@ impl Occurred {
                 }
                 self.taken[event.machine] |= ending != Ending::Well;
             }
-            What::Takes => self.taken[event.machine] = true,
+            What::Takes | What::TakesAtStart => self.taken[event.machine] = true,
             What::Strokes { cylinder, to, .. } => self.strokes[cylinder][to as usize] = true,
             What::Begins(process) => self.begun[process] = true,
             What::Leaps(process) => {

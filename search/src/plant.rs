@@ -157,6 +157,13 @@ pub struct Zone {
     pub found: Vec<Point>,
 }
 
+impl Zone {
+    /// Whether an item can be in both.
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+        (0..2).all(|axis| self.low[axis] < other.high[axis] && other.low[axis] < self.high[axis])
+    }
+}
+
 /// A terminal of the order system.
 #[derive(Clone, Debug)]
 pub struct Desk {
@@ -200,7 +207,8 @@ pub struct Place {
     pub items: Vec<Var>,
     /// So many of one kind are told from more: one more than any order asks for.
     pub most: i32,
-    /// Whether an item lies among its slots, where nobody looks for it; not where items are counted by kinds.
+    /// One more than the kind of what lies among its slots, where nobody looks for it; the number after that of the last
+    /// kind where others may lie there too. Not where items are counted by kinds.
     pub stray: Option<Var>,
     /// Items may lie on one another: what lies there is not known.
     pub stacks: bool,

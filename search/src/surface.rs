@@ -116,27 +116,31 @@ fn slot_at(place: &Place, origin: Point, point: Point) -> Option<usize> {
     nearest.filter(|(_, slot)| distance(slot) <= AT_SLOT * AT_SLOT).map(|(number, _)| number)
 }
 
-/// The item that a gripper finds with its tool here, no farther than `near` from where it is gripped.
+/// The nearest item that a gripper finds with its tool here, no farther than `near` from where it is gripped.
 pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f64) -> Option<Found> {
     let gap = |p: Point, kind: usize| {
         let gap = [p[0] - tool[0], p[1] - tool[1], p[2] + model.grasps[kind] - tool[2]];
         gap.iter().map(|c| c * c).sum::<f64>()
     };
+    let mut nearest: Option<(f64, Found)> = None;
+    let mut meet = |gap: f64, found: Found| {
+        if gap <= near * near && nearest.is_none_or(|(least, _)| gap < least) {
+            nearest = Some((gap, found));
+        }
+    };
     for (machine, plant) in model.machines.iter().enumerate() {
         for (number, place) in plant.places.iter().enumerate() {
+            if is_driving(model, state, machine) {
+                continue;
+            }
             let origin = origin(model, values, state, machine, place);
             for (slot, item) in place.items.iter().enumerate() {
                 let held = item.load(state);
                 let kind = if place.by_kind { slot } else { held as usize - usize::from(held > 0) };
                 let Some(offset) = place.slots.get(slot).filter(|_| held > 0) else { continue };
                 let at = [0, 1, 2].map(|axis| origin[axis] + offset[axis]);
-                if gap(at, kind) <= near * near && !is_driving(model, state, machine) {
-                    return Some(Found {
-                        kind,
-                        at: Landing::Slot { machine, place: number, slot },
-                        is_forgotten: false,
-                    });
-                }
+                let lies = Landing::Slot { machine, place: number, slot };
+                meet(gap(at, kind), Found { kind, at: lies, is_forgotten: false });
             }
         }
         let Some(lane) = plant.lane.as_ref().filter(|lane| lane.motion.load(state) == motion::STANDS) else {
@@ -146,15 +150,17 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
             let told = |kind: usize| {
                 zone.sees[kind].map_or(sight::OPEN, |input| model.inputs[input].var.load(state))
             };
-            let met = (0..zone.found.len()).filter(|kind| gap(zone.found[*kind], *kind) <= near * near);
-            let kind = met
-                .filter(|kind| told(*kind) != sight::NOT_SEEN)
-                .min_by(|a, b| gap(zone.found[*a], *a).total_cmp(&gap(zone.found[*b], *b)));
-            if let Some(kind) = kind {
-                let is_forgotten = told(kind) == sight::FORGOTTEN;
-                return Some(Found { kind, at: Landing::Zone { machine, zone: number }, is_forgotten });
+            for kind in (0..zone.found.len()).filter(|kind| told(*kind) != sight::NOT_SEEN) {
+                let at = Landing::Zone { machine, zone: number };
+                meet(
+                    gap(zone.found[kind], kind),
+                    Found { kind, at, is_forgotten: told(kind) == sight::FORGOTTEN },
+                );
             }
         }
+    }
+    if let Some((_, found)) = nearest {
+        return Some(found);
     }
     carried(model, values, state, tool)
 }
@@ -162,7 +168,7 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
 /// An item on a place that is carried, where the search knows of none: it may be where no place is known. Of which kind it is, is
 /// known if there is one alone.
 fn carried(model: &Model, values: &Values, state: &[u8], tool: Point) -> Option<Found> {
-    let may_be = model.carries_hidden_items
+    let may_be = model.has_hidden_places
         && model.grasps.len() == 1
         && landing(model, values, state, tool, 0) == Landing::Elsewhere;
     may_be.then_some(Found { kind: 0, at: Landing::Elsewhere, is_forgotten: true })

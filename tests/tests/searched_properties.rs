@@ -32,6 +32,20 @@ fn names() -> Vec<String> {
     fixtures("verify/properties", "aut").into_iter().map(|(name, _)| name).collect()
 }
 
+/// If nothing fails, two items are the order of two, one of them beside the slots; and not the order of one.
+#[test]
+fn an_item_beside_the_slots_is_one_of_the_order() {
+    for (asked, is_right) in [(1, false), (2, true)] {
+        let mut texts = line("not_the_order_with_one_beside");
+        let scenario = texts.scenario.expect("a scenario");
+        let order = format!("\"bolt\": {asked}");
+        texts.scenario = Some(scenario.replace("\"bolt\": 1", &order));
+        let Searched { model, .. } = model(&texts.project(), &Asked::with(Faults::None)).expect("a model");
+        let found = explore(&model, &BOUNDS, &mut |_| true);
+        assert_eq!(found.violations.is_empty(), is_right, "{asked}: {:?}", found.violations);
+    }
+}
+
 /// What is found, with its executions.
 fn told(name: &str) -> String {
     let outcome = line(name).compile();

@@ -50,7 +50,10 @@ impl Columns {
     pub fn of_warm_up(row: &Row) -> Self {
         let cut = row.cut_orders;
         let text = cut.map_or_else(|| "-".into(), |cut| format!("{}", (cut * 10.0).round() / 10.0));
-        Self { values: vec![("cut_orders", json!(cut))], texts: vec![("cut", 5, text)] }
+        Self {
+            values: vec![("cut_orders", json!(cut)), ("measured_runs", json!(row.measured_runs))],
+            texts: vec![("cut", 5, text)],
+        }
     }
 
     /// Of the differences to the first point.

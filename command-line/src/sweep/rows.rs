@@ -16,6 +16,8 @@ pub struct Row {
     /// Runs, and those of them in which all orders were made.
     pub runs: u32,
     pub finished_runs: usize,
+    /// Those of them that have a figure: the warm-up may leave no order of a run.
+    pub measured_runs: usize,
     /// Mean over the runs that have one.
     pub figure: Option<f64>,
     /// Half of the width of the 95 % interval of the figure; `None` of less than two runs.
@@ -38,6 +40,7 @@ impl Row {
             outcome: Outcome::new(None, None),
             runs: 0,
             finished_runs: 0,
+            measured_runs: 0,
             figure: None,
             half_width: None,
             are_same: false,
@@ -96,6 +99,7 @@ impl Tally {
             outcome,
             runs: self.runs,
             finished_runs: self.cut_orders.count,
+            measured_runs: self.figure.count,
             figure: self.figure.mean(),
             half_width: self.figure.half_width(),
             are_same: self.figure.half_width().is_some() && !self.differ,
@@ -118,12 +122,22 @@ pub struct Rows<'a> {
     pub status: Status,
     /// Points whose runs are over before their figure is as precise as it should be.
     imprecise: usize,
+    /// Runs of which the warm-up leaves no order, and their points.
+    cut_whole: (usize, usize),
 }
 
 impl<'a> Rows<'a> {
     pub fn new(design: &'a Design, table: Table<'a>) -> Self {
         table.begin();
-        Self { design, table, tally: Tally::default(), first: Vec::new(), status: Status::Done, imprecise: 0 }
+        Self {
+            design,
+            table,
+            tally: Tally::default(),
+            first: Vec::new(),
+            status: Status::Done,
+            imprecise: 0,
+            cut_whole: (0, 0),
+        }
     }
 
     /// The runs of a point come in the order of their replications, the points in theirs. Whether it was the last run
@@ -139,6 +153,7 @@ impl<'a> Rows<'a> {
                 point: self.design.point(run.point),
                 runs: 1,
                 finished_runs: usize::from(outcome.finished),
+                measured_runs: usize::from(outcome.figure(self.design.asked).is_some()),
                 figure: outcome.figure(self.design.asked),
                 half_width: None,
                 are_same: false,
@@ -147,7 +162,7 @@ impl<'a> Rows<'a> {
                 differences: std::mem::take(&mut self.tally).differences,
                 outcome,
             };
-            self.table.row(&row);
+            self.put(&row);
             return true;
         }
         self.tally.take(run.replication, outcome, self.design.asked);
@@ -161,9 +176,18 @@ impl<'a> Rows<'a> {
             && let Some(row) =
                 std::mem::take(&mut self.tally).row(self.design.point(run.point), self.design.asked)
         {
-            self.table.row(&row);
+            self.put(&row);
         }
         is_last
+    }
+
+    fn put(&mut self, row: &Row) {
+        let cut_whole = row.finished_runs - row.measured_runs;
+        if self.design.warm_up.is_some() && cut_whole > 0 {
+            self.cut_whole.0 += cut_whole;
+            self.cut_whole.1 += 1;
+        }
+        self.table.row(row);
     }
 
     fn compare(&mut self, run: RunNumber, figure: Option<f64>) {
@@ -181,10 +205,21 @@ impl<'a> Rows<'a> {
         let rows = self.table.end();
         if self.imprecise > 0 {
             let (points, runs) = (self.imprecise, self.design.replications);
-            complain!("{points} points have not reached the precision in {runs} runs");
+            let points = counted(points, "point has", "points have");
+            complain!("{points} not reached the precision in {runs} runs");
+        }
+        if let (runs @ 1.., points) = self.cut_whole {
+            let (runs, points) = (counted(runs, "run", "runs"), counted(points, "point", "points"));
+            complain!(
+                "the warm-up leaves no order of {runs} of {points}: they are in no mean; cut less, or make more orders"
+            );
         }
         (self.status, rows)
     }
+}
+
+fn counted(number: usize, one: &str, several: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { several })
 }
 
 /// Of what two points came to, that which the sweep came to.

@@ -79,7 +79,9 @@ fn truncation(means: &[f64]) -> usize {
         let squares: f64 = rest.iter().map(|value| (value - mean) * (value - mean)).sum();
         squares / (rest.len() * rest.len()) as f64
     };
-    let errors = (0..=means.len() / 2).filter(|cut| *cut < means.len()).map(|cut| (error(cut), cut));
+    // The standard error of one mean is not known.
+    let cuts = (0..=means.len() / 2).filter(|cut| *cut + 2 <= means.len());
+    let errors = cuts.map(|cut| (error(cut), cut));
     errors.reduce(|least, next| if next.0 < least.0 { next } else { least }).map_or(0, |(_, cut)| cut)
 }
 
@@ -127,8 +129,10 @@ mod tests {
         assert_eq!(cut(&[100; 20]), 0);
         // The same program says 20 for `range(100, 60, -1)`.
         assert_eq!(cut(&(61..=100).rev().collect::<Vec<u32>>()), 20);
-        // Two batches at least are compared.
+        // Two batches at least are left.
         assert_eq!(cut(&[900, 10, 10, 10, 10, 10, 10, 10, 10]), 0);
+        assert_eq!(cut(&[900, 10, 10, 10, 10, 10, 10, 10, 10, 10]), 0);
+        assert_eq!(cut(&[[900; 5], [10; 5], [10; 5]].concat()), 5);
         assert_eq!(cut(&[]), 0);
     }
 

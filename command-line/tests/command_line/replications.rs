@@ -142,17 +142,20 @@ fn orders_of_the_warm_up_are_not_in_the_mean() {
     let row = |warm_up: &str| {
         let output = autogen(&folder, &[&["sweep", &layout, "--warm-up", warm_up], &point[..]].concat());
         assert_eq!(status(&output), 0, "{}", errors(&output));
-        rows(&output)[0].clone()
+        (rows(&output)[0].clone(), errors(&output))
     };
     let until = format!("{}s", made[1]);
     for (warm_up, cut) in [("0orders", 0), ("2orders", 2), (&until, 2), ("5orders", 5), ("auto", 0)] {
-        let row = row(warm_up);
+        let (row, said) = row(warm_up);
+        assert_eq!((row["measured_runs"].as_u64(), said.as_str()), (Some(1), ""), "{row}");
         let first = if cut == 0 { 0.0 } else { made[cut - 1] };
         let wanted = (made[5] - first) / (6 - cut) as f64;
         assert!((row["seconds_per_order"].as_f64().expect("orders are left") - wanted).abs() < 1e-9, "{row}");
         assert_eq!(row["cut_orders"], cut as f64, "{row}");
     }
-    assert!(row("6orders")["seconds_per_order"].is_null());
+    let (row, said) = row("6orders");
+    assert!(row["seconds_per_order"].is_null() && row["measured_runs"] == 0, "{row}");
+    assert!(said.contains("the warm-up leaves no order of 1 run of 1 point"), "{said}");
 }
 
 #[test]

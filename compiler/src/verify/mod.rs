@@ -4,6 +4,7 @@ mod asked;
 mod automaton;
 mod contract;
 mod expression;
+mod fed;
 mod followed;
 pub mod gantt;
 mod live;

@@ -1,8 +1,9 @@
 //! The whole line.
 
 use super::automaton::{Instance, Line, Vars};
+use super::fed::Fed;
 use super::memory::{Kept, Memory, kept};
-use super::plant::{Known, carries_hidden_items, hides_items, plant};
+use super::plant::{Known, has_hidden_places, hides_items, plant};
 use super::properties::{can_stop, read_by, searched};
 use super::strokes::Changing;
 use super::unread::unread;
@@ -39,6 +40,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
     }
     let mut memory = Memory::default();
     let mut changing = Changing::default();
+    let fed = Fed::of(line);
     let mut whole = Line {
         system,
         plant: line,
@@ -100,7 +102,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
             line,
             number,
             &automaton.device.ports,
-            Known { reads_error: reads_error(automaton, asked), stopped, reads: &reads },
+            Known { reads_error: reads_error(automaton, asked), stopped, reads: &reads, fed: &fed },
             &mut memory,
             &mut changing,
         ));
@@ -169,6 +171,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         arms[machine].as_ref().is_some_and(|arm| arm.solve(Point { x, y, z }, &arm.start()).is_some())
     }));
     let Memory { initial, owners, variables, values } = memory;
+    let machines = || 0..line.machines.len();
     let model = Model {
         initial,
         owners,
@@ -179,8 +182,8 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         cylinders: changing.cylinders,
         processes: changing.processes,
         orders,
-        hides_items: line.machines.iter().any(|machine| hides_items(line, machine)),
-        carries_hidden_items: line.machines.iter().any(carries_hidden_items),
+        hides_items: machines().any(|number| hides_items(line, number, &fed)),
+        has_hidden_places: machines().any(|number| has_hidden_places(line, number, &fed)),
         heights: line.kinds.iter().map(|kind| kind.height).collect(),
         grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
         sensed: sensed(system),

@@ -3,6 +3,7 @@
 //! Commands take any number of scans and end as [`ending`] says. What a signal may do is in [`Signals::of`]; one of a
 //! primitive that is not named there changes freely, which is sound for every primitive and says little.
 
+use super::fed::Fed;
 use super::memory::Memory;
 use super::strokes::{Changing, Of};
 use crate::device::Port;
@@ -61,7 +62,7 @@ pub struct Plant {
 }
 
 /// What is known of the automaton of a machine.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Known<'a> {
     /// It reads the port `error` by itself.
     pub reads_error: bool,
@@ -69,6 +70,8 @@ pub struct Known<'a> {
     pub stopped: Option<Var>,
     /// Of each port of the device whether an expression reads it.
     pub reads: &'a [bool],
+    /// Of the line.
+    pub fed: &'a Fed,
 }
 
 fn coordinates(p: Point) -> [f64; 3] {
@@ -130,7 +133,7 @@ pub fn plant(
     memory: &mut Memory,
     changing: &mut Changing,
 ) -> Plant {
-    let Known { reads_error, stopped, reads } = known;
+    let Known { reads_error, stopped, reads, fed } = known;
     let machine = &line.machines[number];
     let watched = watched(machine, ports, reads);
     let mut found = autogen_search::plant::Machine::default();
@@ -202,7 +205,8 @@ pub fn plant(
                 let zones =
                     machine.parts.iter().enumerate().filter_map(|(of, other)| match &other.primitive {
                         Primitive::Zone(field) if field.lane == part => {
-                            Some(zone(line, number, of, lane, field, memory, &mut changing.inputs))
+                            let stays = (!fed.has(number, part)).then_some(number);
+                            Some(zone(line, (number, of, stays), lane, field, memory, &mut changing.inputs))
                         }
                         _ => None,
                     });
@@ -214,7 +218,7 @@ pub fn plant(
                     zones,
                 });
             }
-            Primitive::Place(place) if is_known(machine, place) => {
+            Primitive::Place(place) if fed.is_known(line, number, part) => {
                 let count = if place.by_kind { line.kinds.len() } else { place.slots.len() };
                 let asked = line.scenario.orders.iter().flat_map(|order| &order.parts);
                 let more = asked.copied().max().unwrap_or(0) as usize + 1;
@@ -230,17 +234,13 @@ pub fn plant(
                     by_kind: place.by_kind,
                     items: items.collect(),
                     most: more as i32,
-                    stray: (!place.by_kind).then(|| memory.number(number, name("(stray)"), 1, 0)),
-                    stacks: stacks(line, place),
+                    stray: (!place.by_kind)
+                        .then(|| memory.number(number, name("(stray)"), line.kinds.len() + 1, 0)),
+                    stacks: stacks(line, place) || fed.has(number, part),
                 });
             }
             Primitive::Orders(orders) => {
-                let is_place = |part: &&usize| {
-                    matches!(&machine.parts[**part].primitive, Primitive::Place(place)
-                        if is_known(machine, place))
-                };
-                let before: Vec<usize> = (0..orders.place).collect();
-                let place = before.iter().filter(is_place).count();
+                let place = (0..orders.place).filter(|part| fed.is_known(line, number, *part)).count();
                 let here = line.scenario.orders.iter().enumerate();
                 let here: Vec<usize> = here
                     .filter(|(_, order)| order.stations.contains(&number))
@@ -290,10 +290,13 @@ pub fn is_commanded(machine: &Machine, part: usize) -> bool {
 }
 
 /// Whether items may be somewhere that is not searched: on a conveyor without commands, at such a place, or on other items.
-pub fn hides_items(line: &Line, machine: &Machine) -> bool {
-    machine.parts.iter().enumerate().any(|(number, part)| match &part.primitive {
-        Primitive::Lane(_) => !is_commanded(machine, number),
-        Primitive::Place(place) => !is_known(machine, place) || stacks(line, place),
+pub fn hides_items(line: &Line, number: usize, fed: &Fed) -> bool {
+    let machine = &line.machines[number];
+    machine.parts.iter().enumerate().any(|(part, of)| match &of.primitive {
+        Primitive::Lane(_) => !is_commanded(machine, part),
+        Primitive::Place(place) => {
+            !fed.is_known(line, number, part) || fed.has(number, part) || stacks(line, place)
+        }
         _ => false,
     })
 }
@@ -303,14 +306,16 @@ fn stacks(line: &Line, place: &runtime_sim::part::place::Place) -> bool {
     place.stacks || line.kinds.iter().any(|kind| kind.deck.is_some())
 }
 
-/// Whether one of the places at which items are not searched is carried.
-pub fn carries_hidden_items(machine: &Machine) -> bool {
-    machine.places().any(|place| !is_known(machine, place))
+/// Whether there is a place at which it is not known what lies there, and not where that place is.
+pub fn has_hidden_places(line: &Line, number: usize, fed: &Fed) -> bool {
+    let parts = line.machines[number].parts.iter().enumerate();
+    let mut places = parts.filter(|(_, part)| matches!(part.primitive, Primitive::Place(_)));
+    places.any(|(part, _)| !fed.is_known(line, number, part))
 }
 
 /// What lies on a cylinder, a positioner or a vehicle on a track is nowhere to be found.
-pub(super) fn is_known(machine: &Machine, place: &runtime_sim::part::place::Place) -> bool {
-    machine.strokes_under(place).is_none() && !machine.is_on_track(place)
+pub(super) fn is_carried(machine: &Machine, place: &runtime_sim::part::place::Place) -> bool {
+    machine.strokes_under(place).is_some() || machine.is_on_track(place)
 }
 
 /// What is published of a truth while its machine is stopped; none: what the automaton wrote last.
@@ -374,11 +379,10 @@ fn field_over(machine: &Machine, part: usize) -> Option<usize> {
     is_over.then_some(field.lane)
 }
 
-/// None for a field that is not over the lane.
+/// None for a field that is not over the lane. `stays`: the machine, if nothing comes while its lane stands.
 fn zone(
     line: &Line,
-    number: usize,
-    part: usize,
+    (number, part, stays): (usize, usize, Option<usize>),
     lane: &Conveyor,
     field: &Field,
     memory: &mut Memory,
@@ -411,7 +415,7 @@ fn zone(
                 var: memory.number(number, name, 2, 1),
                 low: 0,
                 values: 2,
-                stays: Some(number),
+                stays,
                 machine: number,
             });
             inputs.len() - 1

@@ -1,20 +1,20 @@
 //! Where the items are at the end of an execution: on grippers, and at places.
 
-use super::plant::is_known;
+use super::fed::Fed;
 use super::story::Teller;
 use autogen_search::plant::{Arm, Place};
 use autogen_search::story::Execution;
-use runtime_sim::part::Primitive;
 
 impl Teller<'_> {
     /// Of each machine that has a gripper or items its state and these: `kitting in Placing: battery on its gripper`.
     pub fn situation(&self, execution: &Execution) -> Vec<String> {
         let Some(last) = execution.scans.last() else { return Vec::new() };
         let state = &last.after;
+        let fed = Fed::of(&self.project.plant);
         let machines = self.model.machines.iter().enumerate();
         let lines = machines.filter_map(|(number, machine)| {
             let mut held: Vec<String> = machine.arm.iter().map(|arm| self.on_gripper(arm, state)).collect();
-            for (place, name) in machine.places.iter().zip(self.names_of_places(number)) {
+            for (place, name) in machine.places.iter().zip(self.names_of_places(number, &fed)) {
                 let of_several = (machine.places.len() > 1).then_some(name);
                 held.extend(self.at_place(place, of_several, state));
             }
@@ -47,18 +47,20 @@ impl Teller<'_> {
                 _ => {}
             }
         }
-        if place.stray.is_some_and(|stray| stray.load(state) != 0) {
-            found.push(format!("an item beside the places{of}"));
+        match place.stray.map(|stray| stray.load(state)) {
+            None | Some(0) => {}
+            Some(stray) => {
+                let item = self.kind(stray).map_or("perhaps items".into(), |kind| format!("one {kind}"));
+                found.push(format!("{item} beside the places{of}"));
+            }
         }
         found
     }
 
     /// In the order in which the model has them.
-    fn names_of_places(&self, machine: usize) -> impl Iterator<Item = &str> {
-        let machine = &self.project.plant.machines[machine];
-        machine.parts.iter().filter_map(|part| match &part.primitive {
-            Primitive::Place(place) if is_known(machine, place) => Some(part.name.as_str()),
-            _ => None,
-        })
+    fn names_of_places(&self, machine: usize, fed: &Fed) -> impl Iterator<Item = &str> {
+        let line = &self.project.plant;
+        let parts = line.machines[machine].parts.iter().enumerate();
+        parts.filter(move |(part, _)| fed.is_known(line, machine, *part)).map(|(_, part)| part.name.as_str())
     }
 }

@@ -262,6 +262,7 @@ impl Teller<'_> {
                 format!("{name} loses the {item} {place}")
             }
             What::Takes => format!("{name} takes the item that is there"),
+            What::TakesAtStart => format!("{name} takes the item at its start"),
             What::Shows => {
                 let holds = plant.arm.as_ref().is_some_and(|arm| arm.holds.load(&happened.before) != 0);
                 let what = if holds { "an item" } else { "nothing" };

@@ -1,0 +1,42 @@
+//! Where items come that no arm puts there.
+
+use super::plant::is_carried;
+use runtime_sim::line::Line;
+use runtime_sim::part::Primitive;
+use runtime_sim::plant::transfers;
+use runtime_sim::wiring::Drives;
+use std::collections::BTreeSet;
+
+/// Lanes that get items even while they stand, and places that do: from other conveyors, or from a source that puts them
+/// on when it is asked to. Each by the numbers of its machine and of its part.
+pub struct Fed(BTreeSet<(usize, usize)>);
+
+impl Fed {
+    pub fn of(line: &Line) -> Self {
+        let mut fed: BTreeSet<_> = transfers(line).into_iter().map(|transfer| transfer.to).collect();
+        for (number, machine) in line.machines.iter().enumerate() {
+            for output in &machine.wiring.outputs {
+                if let Drives::Level { part, .. } = output.drives
+                    && let Primitive::Source(source) = &machine.parts[part].primitive
+                {
+                    fed.insert((number, source.lane));
+                }
+            }
+        }
+        Self(fed)
+    }
+
+    pub fn has(&self, machine: usize, part: usize) -> bool {
+        self.0.contains(&(machine, part))
+    }
+
+    /// Whether it is known what lies at a place: at none that is carried, and at one that is fed only what orders ask of.
+    pub fn is_known(&self, line: &Line, number: usize, part: usize) -> bool {
+        let machine = &line.machines[number];
+        let Primitive::Place(place) = &machine.parts[part].primitive else { return false };
+        let is_of_orders =
+            |other: &Primitive| matches!(other, Primitive::Orders(orders) if orders.place == part);
+        let has_orders = machine.parts.iter().any(|other| is_of_orders(&other.primitive));
+        !is_carried(machine, place) && (has_orders || !self.has(number, part))
+    }
+}
