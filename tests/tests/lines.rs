@@ -341,6 +341,19 @@ const TOUCHES_A_LID: u64 = 391;
 /// The gantry loses every second part, and one in three of its commands is refused: the line may stop and say what
 /// somebody has to do, but nothing is touched. In the first of these draws the arm once rose with each refusal until it
 /// touched itself.
+/// Parts of one kind come so close to one another that one of them is always in the field of the belt.
+#[test]
+fn behind_a_part_that_was_not_gripped_the_next_one_is() {
+    let scenario = r#"{
+        "kinds": [{"name": "battery", "height": 0.053}],
+        "orders": [{"station": "as1", "parts": {"battery": 1}}],
+        "supply": {"items": ["battery"], "times": 100, "every_s": 4},
+        "faults": {"refusals": [{"robot": "kitting", "command": 3}]}
+    }"#;
+    let texts = Texts { scenario: Some(scenario.into()), ..ariac("less_agv") };
+    assert_eq!(failure("less_agv", &execute(&texts.project())), None);
+}
+
 #[test]
 fn an_arm_that_is_refused_again_and_again_touches_nothing() {
     let drawn = (0..campaign(12, 400) as u64).filter(|seed| *seed != TOUCHES_A_LID);
