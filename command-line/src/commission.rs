@@ -204,7 +204,7 @@ fn report(
             (remembering(&line, run)?, None)
         }
         true => {
-            let watched = if options.no_report { Vec::new() } else { page::watched(system) };
+            let watched = if options.no_report { Vec::new() } else { page::watched(system, &line) };
             let run = |memory: &mut _| {
                 record_again(&line, &mut controllers, stepping, memory, &watched, &mut observe)
             };

@@ -28,7 +28,7 @@ fn run(texts: &Texts) -> Run {
     let outcome = texts.compile();
     let project = outcome.project.expect("a line that is right");
     let (line, mut executor) = (&project.plant, Executor::new(&project.system));
-    let watched = report::watched(&project.system);
+    let watched = report::watched(&project.system, line);
     let ignore = &mut |_: &Seen| {};
     let recorded = record(line, &mut executor, Stepping::Events, &watched, ignore).expect("a run");
     let results: Value = serde_json::from_str(&recorded.report.to_json()).expect("JSON");
@@ -250,11 +250,12 @@ fn the_path_that_limits_a_run_has_no_gap() {
         let data = data(&run.page);
         let limit = &data["limit"];
         let scan_ms = data["scan_ms"].as_f64().expect("a number");
-        let legs: Vec<[u64; 3]> = serde_json::from_value(limit["path"].clone()).expect("a list of legs");
+        let legs: Vec<[u64; 3]> = serde_json::from_value(data["path"].clone()).expect("a list of legs");
         assert!(legs.windows(2).all(|pair| pair[0][2] == pair[1][1]), "{name}: {legs:?}");
         assert_eq!(legs.first().map(|leg| leg[1]), Some(0), "{name}");
         let shares = limit["machines"].as_array().expect("a list").iter();
         let sum: f64 = shares.map(|share| share["s"].as_f64().expect("a number")).sum();
+        let sum = sum + limit["stands_s"].as_f64().expect("a number");
         let end = legs.last().map_or(0, |leg| leg[2]);
         assert!((sum - end as f64 * scan_ms / 1000.0).abs() < 1e-6, "{name}: {sum}");
         assert!(end <= run.recorded.report.scans);

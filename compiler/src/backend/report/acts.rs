@@ -50,22 +50,30 @@ pub fn acts(history: &History, signals: &[Signal], end: u64) -> Vec<Acts> {
 
 fn stays(machine: &MachineHistory, end: u64) -> Acts {
     let mut acts = Acts::default();
-    for stay in machine.stays.iter().filter(|stay| stay.scan < end) {
-        match acts.stays.last_mut() {
-            // What it is counted as has changed alone.
-            Some(last) if last.state == stay.state => continue,
-            Some(last) => {
-                last.end = stay.scan;
-                acts.acted.push(stay.scan);
-            }
-            None => {}
+    let mut again = machine.entered_again().peekable();
+    for (number, stay) in machine.stays.iter().enumerate().filter(|(_, stay)| stay.scan < end) {
+        let is_same = |last: &&mut Stay| last.state == stay.state;
+        // If it is, what it is counted as has changed alone.
+        if acts.stays.last_mut().filter(is_same).is_none() {
+            acts.enter(stay.scan, end, stay.state);
         }
-        acts.stays.push(Stay { begin: stay.scan, end, state: stay.state });
+        let next = machine.stays.get(number + 1).map_or(end, |next| next.scan.min(end));
+        while let Some(scan) = again.next_if(|scan| *scan < next) {
+            acts.enter(scan, end, stay.state);
+        }
     }
     acts
 }
 
 impl Acts {
+    fn enter(&mut self, begin: u64, end: u64, state: usize) {
+        if let Some(last) = self.stays.last_mut() {
+            last.end = begin;
+            self.acted.push(begin);
+        }
+        self.stays.push(Stay { begin, end, state });
+    }
+
     /// The stay that lasts up to this scan.
     pub fn before(&self, scan: u64) -> Option<Stay> {
         let number = self.stays.partition_point(|stay| stay.begin < scan);
@@ -81,7 +89,7 @@ impl Acts {
         self.acted.binary_search(&scan).is_ok()
     }
 
-    /// Whether it has left a state for another one in this scan.
+    /// Whether it has left a state in this scan.
     pub fn has_left(&self, scan: u64) -> bool {
         self.before(scan).is_some_and(|stay| stay.end == scan)
     }
