@@ -30,6 +30,10 @@ pub struct History {
     changes: usize,
     /// Numbers of the words that are inputs and outputs of the line.
     of_line: Vec<usize>,
+    /// Of each word, whether it changes while something moves.
+    analogue: Vec<bool>,
+    /// The last scan in which something has happened.
+    happened: u64,
     scan_ms: u64,
 }
 
@@ -91,7 +95,8 @@ pub struct Stroke {
 #[derive(Clone, Debug)]
 pub struct Word {
     pub source: Source,
-    /// Scans, and what holds from then on.
+    /// Scans, and what holds from then on. What changes while something moves has its last value once more before it
+    /// begins to change.
     pub changes: Vec<(u64, f64)>,
 }
 
@@ -113,7 +118,14 @@ impl History {
         let is_of_line = |source: &Source| {
             !matches!(source, Source::Input { .. } | Source::Output { .. } | Source::Trace(_))
         };
+        let kinds = line.kinds.len();
+        let analogue: Vec<_> = line.machines.iter().map(|machine| machine.analogue_inputs(kinds)).collect();
+        let is_analogue = |source: &Source| match *source {
+            Source::Input { machine, word } => analogue[machine].get(word) == Some(&true),
+            _ => false,
+        };
         Self {
+            analogue: watched.iter().map(is_analogue).collect(),
             machines: line.machines.iter().map(begun).collect(),
             words: watched.iter().map(|source| Word { source: *source, changes: Vec::new() }).collect(),
             of_line: (0..watched.len()).filter(|number| is_of_line(&watched[*number])).collect(),
@@ -134,8 +146,14 @@ impl History {
         if self.words_until.is_some() {
             return;
         }
-        let changed = self.words.iter_mut().map(|word| word.look(seen));
-        self.changes += changed.filter(|has_changed| *has_changed).count();
+        for (word, is_analogue) in self.words.iter_mut().zip(&self.analogue) {
+            let has_changed = word.look(seen);
+            self.changes += usize::from(has_changed);
+            if has_changed && *is_analogue {
+                word.rested_until(self.happened);
+            }
+        }
+        self.happened = seen.scan;
         if self.changes > MOST_CHANGES {
             self.words_until = Some(seen.scan + 1);
         }
@@ -183,6 +201,14 @@ impl Word {
             self.changes.push((seen.scan, value));
         }
         has_changed
+    }
+
+    /// Before its last change it had the same value up to this scan: what is joined by a line rests until then.
+    fn rested_until(&mut self, scan: u64) {
+        let Some(before) = self.changes.len().checked_sub(2).map(|number| self.changes[number]) else { return };
+        if before.0 < scan {
+            self.changes.insert(self.changes.len() - 1, (scan, before.1));
+        }
     }
 
     /// What it is at the end of a scan; none before it is known.

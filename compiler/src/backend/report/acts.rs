@@ -29,8 +29,9 @@ pub fn acts(history: &History, signals: &[Signal], end: u64) -> Vec<Acts> {
     let mut all: Vec<Acts> = history.machines.iter().map(|machine| stays(machine, end)).collect();
     for (signal, word) in signals.iter().zip(&history.words) {
         let Some(machine) = signal.machine else { continue };
-        // The first entry is the value at the start.
-        let scans = word.changes.iter().skip(1).map(|(scan, _)| *scan).filter(|scan| *scan < end);
+        // The first entry is the value at the start; some are there to say that a value is still the same.
+        let pairs = word.changes.windows(2).filter(|pair| pair[0].1.to_bits() != pair[1].1.to_bits());
+        let scans = pairs.map(|pair| pair[1].0).filter(|scan| *scan < end);
         match (signal.group, signal.source) {
             (Some(Group::Input), Source::Input { word, .. }) => {
                 let inputs = &mut all[machine].inputs;

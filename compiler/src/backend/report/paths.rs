@@ -34,14 +34,9 @@ pub fn item_json(name: &str, kind: usize, path: &Path) -> Value {
 pub fn lives(paths: &[Path]) -> Vec<Value> {
     let life = |path: &Path| {
         let (Some(first), Some(last)) = (path.segments.first(), path.segments.last()) else { return json!([]) };
-        json!([first.begin_ms, has_left(last.carrier).then_some(last.end_ms)])
+        json!([first.begin_ms, last.carrier.is_final().then_some(last.end_ms)])
     };
     paths.iter().map(life).collect()
-}
-
-/// It is used up by a process too.
-fn has_left(carrier: Carrier) -> bool {
-    carrier.is_gone() || matches!(carrier, Carrier::Part { .. })
 }
 
 /// Of the segments those that begin by this time.
