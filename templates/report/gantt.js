@@ -5,6 +5,7 @@ const Gantt = (() => {
   const { gutter, view, x, clipped, squeezed } = Timeline;
   const ROW = 22, TOP = 24, BAR = 16;
   const canvas = byId('gantt'), box = byId('gantt-box');
+  let isOnPaper = false;
   /* Of each machine the parts of the path that limits the run: begin and end, in order. */
   const path = Data.machines.map(() => []);
   for (const [machine, begin, end] of Data.raw.path) path[machine].push([begin * Data.scanMs, end * Data.scanMs]);
@@ -113,7 +114,7 @@ const Gantt = (() => {
     const colours = Colours.get();
     const whole = TOP + ROW * Data.machines.length + 4;
     // At most about half of the window: the rest is scrolled.
-    box.style.height = Math.min(whole, Math.max(0.46 * innerHeight, 200)) + 'px';
+    box.style.height = (isOnPaper ? whole : Math.min(whole, Math.max(0.46 * innerHeight, 200))) + 'px';
     const width = box.clientWidth, height = box.clientHeight;
     if (!width) return;
     byId('gantt-room').style.height = Math.max(whole - height, 0) + 'px';
@@ -147,6 +148,12 @@ const Gantt = (() => {
 
   function listen() {
     box.addEventListener('scroll', draw);
+    for (const [name, is] of [['beforeprint', true], ['afterprint', false]]) {
+      window.addEventListener(name, () => {
+        isOnPaper = is;
+        draw();
+      });
+    }
     Timeline.listen(canvas, (px, py) => {
       const number = Math.floor((py - TOP + box.scrollTop) / ROW);
       if (py > TOP && Data.machines[number]) Player.choose({ machine: number });

@@ -299,6 +299,23 @@ fn faults_of_the_scenario_are_told() {
     assert_eq!(told, expected);
 }
 
+/// A pause is told with its times, and is the share of no machine on the path that limits the run.
+#[test]
+fn a_pause_limits_a_run_but_is_no_work() {
+    let mut texts = default_line();
+    let pause = r#"{"faults": {"pauses": [{"at_s": 30, "for_s": 5}]},"#;
+    texts.scenario = texts.scenario.map(|text| text.replacen('{', pause, 1));
+    let data = data(&run(&texts).page);
+    let told = data["alarms"].as_array().expect("a list").iter();
+    let told: Vec<(f64, &str)> = told
+        .map(|row| (row[0].as_f64().expect("a number"), row[2].as_str().expect("a text")))
+        .filter(|(_, text)| text.contains("run_permit"))
+        .collect();
+    assert_eq!(told, [(30.0, "run_permit falls: the line stops"), (35.0, "run_permit is back")]);
+    // Two scans before the first start, and one from the permit to the next start.
+    assert_eq!(data["limit"]["stands_s"], json!(5.03));
+}
+
 /// The states of the page are those of the accounts.
 #[test]
 fn times_in_states_add_up_to_the_accounts() {

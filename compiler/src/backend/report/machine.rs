@@ -48,7 +48,7 @@ pub fn machines(line: &Line, signals: &[Signal]) -> Vec<Value> {
 }
 
 /// Where a machine is, as its controller has it: what is measured, the number of the signal of x, which those of y and z
-/// follow, and how many scans late it is. Null if the motions do not say it, or if it sticks for a time.
+/// follow, and how many scans late it is. Null if the motions do not say it, or if the sensor sticks for a time.
 fn measured(line: &Line, index: usize, numbers: &HashMap<Source, usize>) -> Value {
     let machine = &line.machines[index];
     let what = |primitive: &Primitive| match primitive {
@@ -62,7 +62,9 @@ fn measured(line: &Line, index: usize, numbers: &HashMap<Source, usize>) -> Valu
     };
     let word = machine.wiring.input_at(wiring::Source::Signal { part, signal: 0 }, line.kinds.len());
     let signal = word.and_then(|word| numbers.get(&Source::Input { machine: index, word }));
-    let sticks = line.scenario.sensors.iter().any(|stuck| stuck.machine == index);
+    let sticks = line.scenario.sensors.iter().any(|stuck| {
+        stuck.machine == index && word.is_some_and(|word| stuck.word < word + 3 && word < stuck.word + stuck.words)
+    });
     match (signal, &line.io_delay) {
         (Some(signal), IoDelay::Fixed(late)) if !sticks => {
             json!({ "what": what, "signal": signal, "late": late })
