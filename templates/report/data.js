@@ -66,7 +66,7 @@ const Data = (() => {
     return { number, name, machine, group, names, form: names ? 'names' : changesBetween ? 'continuous' : shape };
   });
 
-  const wordsUntil = raw.words_until_s === null ? endMs : raw.words_until_s * 1000;
+  const wordsUntil = Math.min(...[raw.words_until_s, raw.signals_until_s].map((s) => (s === null ? endMs : s * 1000)));
   /* The end of what is known of a signal. */
   const knownUntil = (signal) => (signal.group === 'line' ? endMs : wordsUntil);
 

@@ -340,8 +340,10 @@ const Plan = (() => {
   /* What is at a place of the canvas: the item on top, else the machine on top. */
   function hit(pixel, ms) {
     const p = toWorld(pixel);
-    const item = [...outlines].reverse().find(({ place, corners }) => isInside(corners, p)
-      || Math.hypot(place[0] - p[0], place[1] - p[1]) < 5 / view.scale);
+    const highestFirst = [...outlines].reverse();
+    // Small ones are hit near their middles too.
+    const item = highestFirst.find(({ corners }) => isInside(corners, p))
+      || highestFirst.find(({ place }) => Math.hypot(place[0] - p[0], place[1] - p[1]) < 5 / view.scale);
     if (item) return { item: item.number };
     const body = [...drawn].reverse().find((body) => !isBridge(body) && isOn(body, p))
       || [...still].reverse().find((body) => body.machine !== null && body.low <= OVERHEAD && isOn(body, p));

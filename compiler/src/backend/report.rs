@@ -144,6 +144,7 @@ fn data(project: &Project, sources: &Sources, line: &Line, recorded: &Recorded, 
         "left_out": long.left_out,
         "drawn_until_s": long.drawn_until_s,
         "states_until_s": long.states_until_s,
+        "signals_until_s": long.signals_until_s,
         "lives": long.drawn_until_s.map(|_| paths::lives(&recorded.paths)),
     });
     let mut data = head.to_string();

@@ -15,6 +15,8 @@ use runtime_sim::run::Recorded;
 const MOST_BYTES: usize = 26_000_000;
 /// States have this part of it at most.
 const STATES: usize = 2;
+/// Signals have this part of the rest at least, if the drawing needs all of it.
+const SIGNALS: usize = 4;
 /// Signals that take less than this part of the room are not left out: it would help no more than the drawing of a short time.
 const SMALL: usize = 8;
 /// Where the end of the drawing is looked for, it is missed by less than this part.
@@ -29,6 +31,8 @@ pub struct Long {
     pub drawn_until_s: Option<f64>,
     /// The time from which on states are not shown; none: all are.
     pub states_until_s: Option<f64>,
+    /// The same of signals, but for those of the line.
+    pub signals_until_s: Option<f64>,
 }
 
 impl Long {
@@ -45,7 +49,8 @@ impl Long {
         let room = most.saturating_sub(bytes(&parts));
         let states_until = states_until(history, path, room / STATES);
         parts.extend(states(history, path, states_until));
-        let states_until_s = states_until.map(|scan| (scan * u64::from(line.scan_ms)) as f64 / 1000.0);
+        let seconds = |scan: u64| (scan * u64::from(line.scan_ms)) as f64 / 1000.0;
+        let states_until_s = states_until.map(seconds);
         if let Some(until) = states_until_s {
             left_out.push(format!(
                 "States, and the path that limits the run, are shown until {until:.0} s: the later ones are too much for one page. Figures and tables are those of the whole run."
@@ -53,13 +58,29 @@ impl Long {
         }
         let mut drawn = drawn(line, recorded, end_ms);
         let room = most.saturating_sub(bytes(&parts));
-        let mut changes = changes_json(signals, &history.words, |_| true);
+        let changes_of = |is_kept, until| changes_json(signals, &history.words, is_kept, until);
+        let mut kept: fn(&Signal) -> bool = |_| true;
+        let mut changes = changes_of(kept, u64::MAX);
         for (is_kept, text) in FEWER {
             if bytes(&drawn) + changes.len() <= room || changes.len() <= room / SMALL {
                 break;
             }
             left_out.push(text.to_string());
-            changes = changes_json(signals, &history.words, is_kept);
+            kept = is_kept;
+            changes = changes_of(kept, u64::MAX);
+        }
+        let most_changes = room.saturating_sub(bytes(&drawn)).max(room / SIGNALS);
+        let mut until = history.words_until.unwrap_or(recorded.report.scans);
+        let mut signals_until_s = None;
+        while changes.len() > most_changes && until > 0 {
+            until = (until as f64 * (most_changes as f64 / changes.len() as f64) * CLOSE) as u64;
+            signals_until_s = Some(seconds(until));
+            changes = changes_of(kept, until);
+        }
+        if let Some(until) = signals_until_s {
+            left_out.push(format!(
+                "Signals are shown until {until:.0} s, but for those of the line: the later changes are too many for one page."
+            ));
         }
         let room = room.saturating_sub(changes.len());
         let mut until_ms = end_ms;
@@ -75,7 +96,7 @@ impl Long {
         }
         parts.append(&mut drawn);
         parts.push(("changes", changes));
-        Self { parts, left_out, drawn_until_s, states_until_s }
+        Self { parts, left_out, drawn_until_s, states_until_s, signals_until_s }
     }
 }
 
@@ -83,7 +104,7 @@ impl Long {
 type Fewer = (fn(&Signal) -> bool, &'static str);
 
 /// Fewer and fewer.
-const FEWER: [Fewer; 3] = [
+const FEWER: [Fewer; 2] = [
     (
         |signal| signal.form != Form::Real,
         "Signals that are real numbers are left out, such as places of tools: there are too many changes for one page. The plan shows where everything is, and --io-trace writes each value.",
@@ -92,7 +113,6 @@ const FEWER: [Fewer; 3] = [
         |signal| matches!(signal.form, Form::Truth | Form::Names(_)),
         "Signals that are whole numbers are left out too, such as the numbers of commands.",
     ),
-    (|_| false, "All other signals are left out too."),
 ];
 
 fn bytes(parts: &[(&'static str, String)]) -> usize {

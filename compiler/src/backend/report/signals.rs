@@ -147,15 +147,22 @@ pub fn signals_json(line: &Line, signals: &[Signal]) -> Value {
     json!({ "forms": forms.collect::<Vec<_>>(), "rows": rows })
 }
 
-/// Of each word the scans since its change before, and its values; of those that are not kept nothing.
-pub fn changes_json(signals: &[Signal], words: &[Word], is_kept: fn(&Signal) -> bool) -> String {
+/// Of each word the scans since its change before, and its values: those of the line all, those of machines before this
+/// scan, and of those that are not kept nothing.
+pub fn changes_json(
+    signals: &[Signal],
+    words: &[Word],
+    is_kept: fn(&Signal) -> bool,
+    until: u64,
+) -> String {
     list(words.iter().zip(signals).map(|(word, signal)| {
         let mut changes = List::default();
         if !is_kept(signal) {
             return changes.end();
         }
         let mut last = 0;
-        for (scan, value) in &word.changes {
+        let is_within = |(scan, _): &&(u64, f64)| signal.machine.is_none() || *scan < until;
+        for (scan, value) in word.changes.iter().take_while(is_within) {
             changes.put_whole(scan - last).put_whole(short(*value));
             last = *scan;
         }
