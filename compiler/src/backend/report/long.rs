@@ -65,9 +65,12 @@ impl Long {
             if bytes(&drawn) + changes.len() <= room || changes.len() <= room / SMALL {
                 break;
             }
-            left_out.push(text.to_string());
-            kept = is_kept;
-            changes = changes_of(kept, u64::MAX);
+            let fewer = changes_of(is_kept, u64::MAX);
+            // There may be no such signals.
+            if fewer.len() < changes.len() {
+                left_out.push(text.to_string());
+                (kept, changes) = (is_kept, fewer);
+            }
         }
         let most_changes = room.saturating_sub(bytes(&drawn)).max(room / SIGNALS);
         let mut until = history.words_until.unwrap_or(recorded.report.scans);
@@ -111,7 +114,7 @@ const FEWER: [Fewer; 2] = [
     ),
     (
         |signal| matches!(signal.form, Form::Truth | Form::Names(_)),
-        "Signals that are whole numbers are left out too, such as the numbers of commands.",
+        "Signals that are whole numbers are left out, such as the numbers of commands.",
     ),
 ];
 
