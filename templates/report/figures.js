@@ -36,11 +36,14 @@ const Figures = (() => {
 
   const wholePath = () => raw.limit.machines.reduce((sum, { s }) => sum + s, raw.limit.stands_s);
 
+  /* For so long that it is more than 0.0 %. */
+  const hasStood = () => raw.limit.stands_s >= 0.0005 * wholePath();
+
   /* Of the machines, and of times in which the line stood still, the greatest first. */
   function shares() {
     const stands = { name: 'standstill of the line', s: raw.limit.stands_s, machine: null };
     const all = raw.limit.machines.map((of) => ({ ...of, name: Data.machines[of.machine].name }));
-    return [...all, ...(stands.s > 0 ? [stands] : [])].sort((a, b) => b.s - a.s);
+    return [...all, ...(hasStood() ? [stands] : [])].sort((a, b) => b.s - a.s);
   }
 
   function limit() {
@@ -56,8 +59,7 @@ const Figures = (() => {
     const states = (of) => of.states.slice(0, 3).map(([state, s]) => `${Data.stateName(of.machine, state)} ${s.toFixed(1)} s`).join(', ');
     const until = raw.words_until_s === null ? '' : ` before ${clock(raw.words_until_s * 1000)}`;
     const goal = (raw.made.length ? 'the last order' : raw.collected.length ? 'the last item that was collected' : 'the last action of a machine') + until;
-    // Less is 0.0 %.
-    if (stands / whole >= 0.0005) {
+    if (hasStood()) {
       box.append(element('p', stands > first.s ? 'lead' : '', 'In ', element('strong', '', percent(stands, whole)),
         ` of the path to ${goal} the line stands still (${stands.toFixed(1)} of ${whole.toFixed(1)} s): before a start, without run_permit, in a fault or without power. This is the time of no machine.`));
     }
