@@ -205,7 +205,9 @@ impl Word {
 
     /// Before its last change it had the same value up to this scan: what is joined by a line rests until then.
     fn rested_until(&mut self, scan: u64) {
-        let Some(before) = self.changes.len().checked_sub(2).map(|number| self.changes[number]) else { return };
+        let Some(before) = self.changes.len().checked_sub(2).map(|number| self.changes[number]) else {
+            return;
+        };
         if before.0 < scan {
             self.changes.insert(self.changes.len() - 1, (scan, before.1));
         }

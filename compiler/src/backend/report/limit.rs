@@ -135,7 +135,8 @@ impl Run<'_> {
         let stood = self.standstills.scans(stay.begin, scan);
         let passed = (scan - stay.begin).saturating_sub(stood) * scan_ms;
         // It was not yet one scan before.
-        let is_over = |timer: &u32| (passed.saturating_sub(scan_ms) + 1..=passed).contains(&u64::from(*timer));
+        let is_over =
+            |timer: &u32| (passed.saturating_sub(scan_ms) + 1..=passed).contains(&u64::from(*timer));
         if state.timers.iter().flatten().any(is_over)
             || words(state).any(|word| own.input_changed(word, scan))
         {

@@ -63,7 +63,8 @@ fn measured(line: &Line, index: usize, numbers: &HashMap<Source, usize>) -> Valu
     let word = machine.wiring.input_at(wiring::Source::Signal { part, signal: 0 }, line.kinds.len());
     let signal = word.and_then(|word| numbers.get(&Source::Input { machine: index, word }));
     let sticks = line.scenario.sensors.iter().any(|stuck| {
-        stuck.machine == index && word.is_some_and(|word| stuck.word < word + 3 && word < stuck.word + stuck.words)
+        stuck.machine == index
+            && word.is_some_and(|word| stuck.word < word + 3 && word < stuck.word + stuck.words)
     });
     match (signal, &line.io_delay) {
         (Some(signal), IoDelay::Fixed(late)) if !sticks => {

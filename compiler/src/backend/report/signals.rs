@@ -149,12 +149,7 @@ pub fn signals_json(line: &Line, signals: &[Signal]) -> Value {
 
 /// Of each word the scans since its change before, and its values: those of the line all, those of machines before this
 /// scan, and of those that are not kept nothing.
-pub fn changes_json(
-    signals: &[Signal],
-    words: &[Word],
-    is_kept: fn(&Signal) -> bool,
-    until: u64,
-) -> String {
+pub fn changes_json(signals: &[Signal], words: &[Word], is_kept: fn(&Signal) -> bool, until: u64) -> String {
     list(words.iter().zip(signals).map(|(word, signal)| {
         let mut changes = List::default();
         if !is_kept(signal) {

@@ -35,6 +35,9 @@ mod tests {
     #[test]
     fn scans_of_standstills_within_a_time_are_counted() {
         let all = Standstills(vec![(0, 2), (10, 20), (30, 31)]);
-        assert_eq!([(0, 40), (2, 10), (5, 12), (12, 15), (19, 31)].map(|(a, b)| all.scans(a, b)), [13, 0, 2, 3, 2]);
+        assert_eq!(
+            [(0, 40), (2, 10), (5, 12), (12, 15), (19, 31)].map(|(a, b)| all.scans(a, b)),
+            [13, 0, 2, 3, 2]
+        );
     }
 }
