@@ -17,7 +17,8 @@ const MOST_BYTES: usize = 26_000_000;
 const STATES: usize = 2;
 /// Signals have this part of the rest at least, if the drawing needs all of it.
 const SIGNALS: usize = 4;
-/// Signals that take less than this part of the room are not left out: it would help no more than the drawing of a short time.
+/// Signals that take less than this part of the room are not left out: it would help no more than the drawing of a short
+/// time.
 const SMALL: usize = 8;
 /// Where the end of the drawing is looked for, it is missed by less than this part.
 const CLOSE: f64 = 0.9;
