@@ -19,7 +19,7 @@ use crate::Status;
 use autogen::backend::rust::parameters_text;
 use autogen::backend::{Files, Sink, report as page};
 use autogen::parallel::STACK;
-use runtime_sim::line::{Goal, IoDelay};
+use runtime_sim::line::{Goal, IoDelay, Line};
 use runtime_sim::report::Report;
 use runtime_sim::run::{Recorded, Seen, Stepping, record_again, run_again};
 use serde_json::{Value, json};
@@ -99,7 +99,7 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
 
     let (report, recorded) = report(options, &built, &library, &built_files, delay.clone(), files)?;
     let mut report = results(&report, &built.project, &built.sources)?;
-    if let Some(waits) = why::at_the_end(&built.project, delay, &report)? {
+    if let Some(waits) = why::at_the_end(&built.project, delay.clone(), &report)? {
         report["waits"] = json!(waits);
     }
     if let Some(note) = asks_nothing(&built) {
@@ -113,7 +113,8 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     report["io_delay"] = json!(options.io_delay);
     let mut results = Files::from([(output::RESULTS.to_string(), format!("{report:#}\n"))]);
     if let Some(recorded) = recorded.filter(|_| !options.no_report) {
-        let page = page::html(&built.project, &built.sources, &built.project.plant, &recorded, &report);
+        let line = Line { io_delay: delay, ..built.project.plant.clone() };
+        let page = page::html(&built.project, &built.sources, &line, &recorded, &report);
         results.insert(output::REPORT.into(), page);
     }
     output.write_results(&results, overwrite).map_err(refused)?;
@@ -204,7 +205,7 @@ fn report(
             (remembering(&line, run)?, None)
         }
         true => {
-            let watched = if options.no_report { Vec::new() } else { page::watched(system) };
+            let watched = if options.no_report { Vec::new() } else { page::watched(system, &line) };
             let run = |memory: &mut _| {
                 record_again(&line, &mut controllers, stepping, memory, &watched, &mut observe)
             };

@@ -1,5 +1,7 @@
 //! What went on in a run: the states of all machines, how they moved, and the words of their controllers, as changes.
 
+pub mod times;
+
 use crate::account::Counted;
 use crate::event::Event;
 use crate::io_trace::Source;
@@ -10,6 +12,7 @@ use crate::plant::Plant;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::run::Seen;
+use times::Times;
 
 /// Changes of words that are kept at most.
 const MOST_CHANGES: usize = 4_000_000;
@@ -25,6 +28,13 @@ pub struct History {
     /// What became of items and orders.
     pub events: Vec<Event>,
     changes: usize,
+    /// Numbers of the words that are inputs and outputs of the line.
+    of_line: Vec<usize>,
+    /// Of each word, whether it changes while something moves.
+    analogue: Vec<bool>,
+    /// The last scan in which something has happened.
+    happened: u64,
+    scan_ms: u64,
 }
 
 /// What one machine did.
@@ -32,6 +42,7 @@ pub struct History {
 pub struct MachineHistory {
     /// Each holds from its scan on until the next one does.
     pub stays: Vec<Stay>,
+    pub times: Times,
     /// Of a vehicle: where it is at the start. Of all else: its pose.
     pub position: Point,
     /// Of a vehicle on a track, at the start: degrees.
@@ -84,7 +95,8 @@ pub struct Stroke {
 #[derive(Clone, Debug)]
 pub struct Word {
     pub source: Source,
-    /// Scans, and what holds from then on.
+    /// Scans, and what holds from then on. What changes while something moves has its last value once more before it
+    /// begins to change.
     pub changes: Vec<(u64, f64)>,
 }
 
@@ -103,10 +115,29 @@ impl History {
                 ..MachineHistory::default()
             }
         };
+        let is_of_line = |source: &Source| {
+            !matches!(source, Source::Input { .. } | Source::Output { .. } | Source::Trace(_))
+        };
+        let kinds = line.kinds.len();
+        let analogue: Vec<_> = line.machines.iter().map(|machine| machine.analogue_inputs(kinds)).collect();
+        let is_analogue = |source: &Source| match *source {
+            Source::Input { machine, word } => analogue[machine].get(word) == Some(&true),
+            _ => false,
+        };
         Self {
+            analogue: watched.iter().map(is_analogue).collect(),
             machines: line.machines.iter().map(begun).collect(),
             words: watched.iter().map(|source| Word { source: *source, changes: Vec::new() }).collect(),
+            of_line: (0..watched.len()).filter(|number| is_of_line(&watched[*number])).collect(),
+            scan_ms: u64::from(line.scan_ms),
             ..Self::default()
+        }
+    }
+
+    /// What the line has in a scan: it changes without the controllers too, such as the permit while they have no power.
+    pub(crate) fn line_words(&mut self, seen: &Seen) {
+        for number in &self.of_line {
+            self.words[*number].look(seen);
         }
     }
 
@@ -115,13 +146,14 @@ impl History {
         if self.words_until.is_some() {
             return;
         }
-        for word in &mut self.words {
-            let value = word.source.value(seen);
-            if word.changes.last().is_none_or(|(_, last)| last.to_bits() != value.to_bits()) {
-                word.changes.push((seen.scan, value));
-                self.changes += 1;
+        for (word, is_analogue) in self.words.iter_mut().zip(&self.analogue) {
+            let has_changed = word.look(seen);
+            self.changes += usize::from(has_changed);
+            if has_changed && *is_analogue {
+                word.rested_until(self.happened);
             }
         }
+        self.happened = seen.scan;
         if self.changes > MOST_CHANGES {
             self.words_until = Some(seen.scan + 1);
         }
@@ -145,6 +177,11 @@ impl History {
         }
     }
 
+    /// The controllers have stepped a machine: its state, and the time in it.
+    pub(crate) fn time(&mut self, machine: usize, stay: Stay, ms: u64) {
+        self.machines[machine].times.note(stay, ms, self.scan_ms);
+    }
+
     pub(crate) fn finish(mut self, plant: &Plant) -> Self {
         self.take_events(plant);
         self
@@ -155,7 +192,45 @@ impl History {
     }
 }
 
+impl Word {
+    /// Whether it has changed.
+    fn look(&mut self, seen: &Seen) -> bool {
+        let value = self.source.value(seen);
+        let has_changed = self.changes.last().is_none_or(|(_, last)| last.to_bits() != value.to_bits());
+        if has_changed {
+            self.changes.push((seen.scan, value));
+        }
+        has_changed
+    }
+
+    /// Before its last change it had the same value up to this scan: what is joined by a line rests until then.
+    fn rested_until(&mut self, scan: u64) {
+        let Some(before) = self.changes.len().checked_sub(2).map(|number| self.changes[number]) else {
+            return;
+        };
+        if before.0 < scan {
+            self.changes.insert(self.changes.len() - 1, (scan, before.1));
+        }
+    }
+
+    /// What it is at the end of a scan; none before it is known.
+    pub fn at(&self, scan: u64) -> Option<f64> {
+        let number = self.changes.partition_point(|(since, _)| *since <= scan);
+        number.checked_sub(1).map(|number| self.changes[number].1)
+    }
+}
+
 impl MachineHistory {
+    /// Scans of transitions to the same state.
+    pub fn entered_again(&self) -> impl Iterator<Item = u64> {
+        let is_stopped = |scan: u64| {
+            let number = self.stays.partition_point(|stay| stay.scan <= scan).checked_sub(1);
+            number.is_none_or(|number| self.stays[number].counted == Counted::Stopped)
+        };
+        let set = self.times.set.iter().filter(|(_, ms)| *ms == 0).map(|(scan, _)| *scan);
+        set.filter(move |scan| !is_stopped(*scan))
+    }
+
     fn look(&mut self, machine: usize, plant: &Plant, now_ms: u64) {
         if now_ms == 0 {
             self.position = plant.position(machine).unwrap_or_default();

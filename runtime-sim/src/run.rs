@@ -156,6 +156,7 @@ fn simulate(
     let mut states: Vec<usize> = (0..line.machines.len()).map(|machine| controllers.state(machine)).collect();
     let numbers: Vec<_> = (0..line.machines.len()).map(|machine| numbers(line, machine)).collect();
     let stays = controllers.stays();
+    let times = stays.clone();
     let mut changes = Changes::new(&stays, line);
     let mut agenda = Agenda::new(line, stays, &inputs, analogue);
     let mut unpowered = Unpowered::new(line);
@@ -226,10 +227,11 @@ fn simulate(
         if is_due || stepping != Stepping::Events {
             observer(&seen);
         }
-        if let Some(recorders) = &mut recorders
-            && (acted || arrived == Arrived::Events)
-        {
-            recorders.history.words(&seen);
+        if let Some(recorders) = &mut recorders {
+            recorders.history.line_words(&seen);
+            if acted || arrived == Arrived::Events {
+                recorders.history.words(&seen);
+            }
         }
         if stepping == Stepping::Checked && arrived == Arrived::Events && scan < quiet_until {
             return Err(format!("an input changes in scan {scan}, which would be left out"));
@@ -298,6 +300,9 @@ fn simulate(
                     let stay =
                         Stay { scan, state: states[machine], counted: activity.counted(line, machine) };
                     recorders.history.stay(machine, stay);
+                    if let Some(word) = times.get(machine).filter(|_| is_stepped) {
+                        recorders.history.time(machine, stay, changes.stay(*word) as u64);
+                    }
                 }
             }
         }

@@ -10,12 +10,14 @@ const Figures = (() => {
     byId('name').textContent = raw.name;
     const verdict = byId('verdict');
     const { violation } = results;
-    const found = violation ? `${violation.text}: at ${violation.at_s.toFixed(2)} s; the run ends: ` : '';
+    const found = violation ? `${violation.text}: at ${seconds(violation.at_s)} s; the run ends: ` : '';
     verdict.textContent = found + results.reason;
     verdict.className = 'verdict ' + (results.finished && !violation ? 'good' : 'wrong');
     byId('notes').append(...(results.notes || []).map((note) => element('p', '', `Note: ${note}`)));
     byId('notes').hidden = !(results.notes || []).length;
-    const legs = raw.limit.machines, whole = legs.reduce((sum, { s }) => sum + s, 0);
+    const [first] = shares(), whole = wholePath();
+    const wrong = (results.alarms || []).reduce((sum, { count }) => sum + count, 0) + (results.faults || []).length
+      + (results.fault ? 1 : 0);
     const contacts = (results.collisions || []).length;
     const figures = [
       results.orders ? ['orders made', `${results.orders_done} of ${results.orders}`] : null,
@@ -23,14 +25,26 @@ const Figures = (() => {
       results.seconds_per_order ? ['seconds per order', results.seconds_per_order.toFixed(2)] : null,
       ['simulated', clock(Data.endMs)],
       ['contacts', String(contacts)],
-      raw.alarms.length ? ['alarms and faults', String(raw.alarms.length)] : null,
-      legs.length > 1 ? ['limited by', `${Data.machines[legs[0].machine].name}, ${percent(legs[0].s, whole)}`] : null,
+      wrong ? ['alarms and faults', String(wrong)] : null,
+      shares().length > 1 ? ['limited by', `${first.name}, ${percent(first.s, whole)}`] : null,
     ];
     byId('figures').append(...figures.filter(Boolean).map(([name, value]) =>
       element('div', 'figure', element('dt', '', name), element('dd', '', value))));
   }
 
   /* ---- What limits the line ---- */
+
+  const wholePath = () => raw.limit.machines.reduce((sum, { s }) => sum + s, raw.limit.stands_s);
+
+  /* For so long that it is more than 0.0 %. */
+  const hasStood = () => raw.limit.stands_s >= 0.0005 * wholePath();
+
+  /* Of the machines, and of times in which the line stood still, the greatest first. */
+  function shares() {
+    const stands = { name: 'standstill of the line', s: raw.limit.stands_s, machine: null };
+    const all = raw.limit.machines.map((of) => ({ ...of, name: Data.machines[of.machine].name }));
+    return [...all, ...(hasStood() ? [stands] : [])].sort((a, b) => b.s - a.s);
+  }
 
   function limit() {
     const { machines, from_s, to_s } = raw.limit;
@@ -39,27 +53,33 @@ const Figures = (() => {
       box.append(element('p', 'muted', 'Nothing happened in this run.'));
       return;
     }
-    const whole = machines.reduce((sum, { s }) => sum + s, 0);
+    const whole = wholePath(), stands = raw.limit.stands_s;
     const name = ({ machine }) => Data.machines[machine].name;
     const [first, second] = machines;
     const states = (of) => of.states.slice(0, 3).map(([state, s]) => `${Data.stateName(of.machine, state)} ${s.toFixed(1)} s`).join(', ');
-    const goal = raw.made.length ? 'the last order' : raw.collected.length ? 'the last item that was collected' : 'the last action of a machine';
+    const until = raw.words_until_s === null ? '' : ` before ${clock(raw.words_until_s * 1000)}`;
+    const goal = (raw.made.length ? 'the last order' : raw.collected.length ? 'the last item that was collected' : 'the last action of a machine') + until;
+    if (hasStood()) {
+      box.append(element('p', stands > first.s ? 'lead' : '', 'In ', element('strong', '', percent(stands, whole)),
+        ` of the path to ${goal} the line stands still (${stands.toFixed(1)} of ${whole.toFixed(1)} s): before a start, without run_permit, in a fault or without power. This is the time of no machine.`));
+    }
     box.append(element('p', 'lead', element('strong', '', name(first)),
       ` limits this run: ${percent(first.s, whole)} of the path to ${goal} is its own time (${first.s.toFixed(1)} of ${whole.toFixed(1)} s), most of it in ${states(first)}.`));
     if (second) {
       box.append(element('p', '', 'Next: ', element('strong', '', name(second)),
         ` with ${percent(second.s, whole)} (${second.s.toFixed(1)} s), most of it in ${states(second)}.`));
     }
-    box.append(element('div', 'bars', ...machines.slice(0, 8).map((of) => {
+    box.append(element('div', 'bars', ...shares().slice(0, 8).map((of, _, all) => {
       const bar = element('div', 'bar');
-      bar.style.width = `${(100 * of.s) / first.s}%`;
-      const line = element('button', 'bar-row', element('span', 'bar-name', name(of)), element('span', 'bar-room', bar),
+      bar.style.width = `${(100 * of.s) / all[0].s}%`;
+      const line = element('button', 'bar-row', element('span', 'bar-name', of.name), element('span', 'bar-room', bar),
         element('span', 'number', percent(of.s, whole)));
-      line.addEventListener('click', () => Player.choose({ machine: of.machine }));
+      if (of.machine === null) line.disabled = true;
+      else line.addEventListener('click', () => Player.choose({ machine: of.machine }));
       return line;
     })));
     box.append(element('details', 'method', element('summary', '', 'How it was found'), element('p', '',
-      `Backwards from ${goal} at ${clock(to_s * 1000)} to ${clock(from_s * 1000)}. If a machine left its state because an input of its own changed, or a timer of the state expired, this time is its own. If another machine, which acted in the same scan or in the one before, let it continue, its waiting time does not count, and the path continues with the other machine. So all shares add up to the whole time. A second less in a state on the path makes the run shorter by at most one second, because another path may be nearly as long. In the chart above, the path is the line under the bars.`)));
+      `Backwards from ${goal} at ${clock(to_s * 1000)} to ${clock(from_s * 1000)}. If a machine left its state because an input of its own changed, or a timer of the state expired, this time is its own. If another machine, which acted in the same scan or in the one before, let it continue, its waiting time does not count, and the path continues with the other machine. While the line stands still, the time is that of no machine. So all shares add up to the whole time. A second less in a state on the path makes the run shorter by at most one second, because another path may be nearly as long. In the chart above, the path is the line under the bars.`)));
   }
 
   /* ---- Utilisation ---- */
@@ -73,7 +93,7 @@ const Figures = (() => {
     const piece = (className, title, s) => {
       const part = element('span', className);
       part.style.width = `${(100 * s) / whole}%`;
-      part.title = `${title} ${s.toFixed(2)} s`;
+      part.title = `${title} ${seconds(s)} s`;
       return part;
     };
     const states = ({ machine }) => machine.in_states.map(([state, s]) => [Data.stateName(machine.number, state), s]);
@@ -158,7 +178,7 @@ const Figures = (() => {
   function foot() {
     const notes = [...raw.left_out];
     if (raw.words_until_s !== null) {
-      notes.push(`Signals were recorded until ${clock(raw.words_until_s * 1000)}, because there were too many changes; the path that limits the run is found only for the time until then.`);
+      notes.push(`Signals were recorded until ${clock(raw.words_until_s * 1000)}, because there were too many changes; the path that limits the run, commands that ended in an error, and ends of alarms are found only for the time until then.`);
     }
     byId('left-out').append(...notes.map((note) => element('p', '', note)));
     byId('left-out').hidden = !notes.length;

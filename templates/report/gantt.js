@@ -2,12 +2,13 @@
 /* The Gantt chart: a row for each machine, its states by name, coloured by what it is counted as. */
 
 const Gantt = (() => {
-  const { GUTTER, view, x, clipped } = Timeline;
+  const { gutter, view, x, clipped, squeezed } = Timeline;
   const ROW = 22, TOP = 24, BAR = 16;
   const canvas = byId('gantt'), box = byId('gantt-box');
+  let isOnPaper = false;
   /* Of each machine the parts of the path that limits the run: begin and end, in order. */
   const path = Data.machines.map(() => []);
-  for (const [machine, begin, end] of Data.raw.limit.path) path[machine].push([begin * Data.scanMs, end * Data.scanMs]);
+  for (const [machine, begin, end] of Data.raw.path) path[machine].push([begin * Data.scanMs, end * Data.scanMs]);
 
   /* Stays too short to be seen share a column of pixels by their times. */
   function column(context, px, y, shares) {
@@ -16,10 +17,17 @@ const Gantt = (() => {
     let top = y;
     shares.forEach((share, i) => {
       const height = (share / whole) * BAR;
-      context.fillStyle = colours[Data.COUNTED[i]];
+      context.fillStyle = colours[Data.KINDS[i]];
       context.fillRect(px, top, 1, height);
       top += height;
     });
+  }
+
+  /* What is as light as the ground has edges. */
+  function edge(context, px, y, width) {
+    context.fillStyle = Colours.get()['waiting-edge'];
+    context.fillRect(px, y, width, 1);
+    context.fillRect(px, y + BAR - 1, width, 1);
   }
 
   function row(context, machine, y, width) {
@@ -42,12 +50,12 @@ const Gantt = (() => {
       const begin = Math.max(at[i], view.from);
       const end = Math.min(i + 1 < at.length ? at[i + 1] : Data.endMs, view.to);
       const [from, to] = [x(begin, width), x(end, width)];
-      const kind = Data.COUNTED[counted[i]];
+      const kind = Data.KINDS[counted[i]];
       if (to - from < 1.5) {
         if (Math.floor(from) !== pixel || !shares) {
           flush();
           pixel = Math.floor(from);
-          shares = [0, 0, 0, 0];
+          shares = Data.KINDS.map(() => 0);
         }
         shares[counted[i]] += end - begin;
         write();
@@ -57,6 +65,7 @@ const Gantt = (() => {
       flush();
       context.fillStyle = colours[kind];
       context.fillRect(from, y, to - from, BAR);
+      if (kind === 'waiting') edge(context, from, y, to - from);
       // The begin of a state is told from what comes before.
       if (i > first && state[i] !== state[i - 1] && to - from > 4) {
         context.fillStyle = colours.panel;
@@ -70,7 +79,20 @@ const Gantt = (() => {
     }
     write();
     flush();
+    marks(context, machine, y, width);
     limits(context, machine, y, width);
+  }
+
+  /* Transitions to the same state, as far as they can be told apart. */
+  function marks(context, machine, y, width) {
+    const again = Data.again[machine];
+    context.fillStyle = Colours.get().panel;
+    let last = -Infinity;
+    for (let i = Data.indexAt(again, view.from) + 1; i < again.length && again[i] < view.to; i++) {
+      const px = x(again[i], width);
+      if (px - last > 4) context.fillRect(px, y, 1, BAR);
+      last = px;
+    }
   }
 
   function limits(context, machine, y, width) {
@@ -83,7 +105,7 @@ const Gantt = (() => {
       else high = middle;
     }
     for (let i = low; i < legs.length && legs[i][0] < view.to; i++) {
-      const from = Math.max(x(legs[i][0], width), GUTTER), to = Math.min(x(legs[i][1], width), width);
+      const from = Math.max(x(legs[i][0], width), gutter(width)), to = Math.min(x(legs[i][1], width), width);
       context.fillRect(from, y + BAR, Math.max(to - from, 0.5), 2.5);
     }
   }
@@ -92,7 +114,7 @@ const Gantt = (() => {
     const colours = Colours.get();
     const whole = TOP + ROW * Data.machines.length + 4;
     // At most about half of the window: the rest is scrolled.
-    box.style.height = Math.min(whole, Math.max(0.46 * innerHeight, 200)) + 'px';
+    box.style.height = (isOnPaper ? whole : Math.min(whole, Math.max(0.46 * innerHeight, 200))) + 'px';
     const width = box.clientWidth, height = box.clientHeight;
     if (!width) return;
     byId('gantt-room').style.height = Math.max(whole - height, 0) + 'px';
@@ -116,7 +138,7 @@ const Gantt = (() => {
       context.textAlign = 'left';
       context.textBaseline = 'middle';
       context.fillStyle = colours.ink;
-      context.fillText(clipped(context, machine.name, GUTTER - 16), 8, y + BAR / 2 + 1);
+      context.fillText(squeezed(context, machine.name, gutter(width) - 16), 8, y + BAR / 2 + 1);
       context.font = `11px ${colours.font}`;
       row(context, machine.number, y, width);
     });
@@ -126,6 +148,12 @@ const Gantt = (() => {
 
   function listen() {
     box.addEventListener('scroll', draw);
+    for (const [name, is] of [['beforeprint', true], ['afterprint', false]]) {
+      window.addEventListener(name, () => {
+        isOnPaper = is;
+        draw();
+      });
+    }
     Timeline.listen(canvas, (px, py) => {
       const number = Math.floor((py - TOP + box.scrollTop) / ROW);
       if (py > TOP && Data.machines[number]) Player.choose({ machine: number });
@@ -133,7 +161,17 @@ const Gantt = (() => {
     canvas.addEventListener('pointermove', (event) => {
       const number = Math.floor((event.offsetY - TOP + box.scrollTop) / ROW);
       const machine = event.offsetY > TOP ? Data.machines[number] : null;
-      canvas.title = machine && event.offsetX > GUTTER ? about(machine, Timeline.ms(event.offsetX, canvas.clientWidth)) : '';
+      const isName = event.offsetX < gutter(canvas.clientWidth);
+      canvas.title = !machine ? '' : isName ? machine.name : about(machine, Timeline.ms(event.offsetX, canvas.clientWidth));
+    });
+    canvas.addEventListener('keydown', (event) => {
+      const by = { ArrowUp: -1, ArrowDown: 1 }[event.key];
+      if (!by) return;
+      event.preventDefault();
+      const { machine } = Player.chosen, count = Data.machines.length;
+      const number = machine === null ? (by > 0 ? 0 : count - 1) : Math.min(Math.max(machine + by, 0), count - 1);
+      box.scrollTop = Math.min(Math.max(box.scrollTop, TOP + (number + 1) * ROW - box.clientHeight), number * ROW);
+      Player.choose({ machine: number });
     });
     byId('time-in').addEventListener('click', () => Timeline.zoom(2));
     byId('time-out').addEventListener('click', () => Timeline.zoom(0.5));
@@ -144,7 +182,7 @@ const Gantt = (() => {
     const stay = Data.stayAt(machine.number, ms);
     const until = stay.nextMs === null ? Data.endMs : stay.nextMs;
     const name = Data.stateName(machine.number, stay.state);
-    return `${machine.name}: ${name}, ${stay.counted}\n${clock(stay.sinceMs)} to ${clock(until)} (${((until - stay.sinceMs) / 1000).toFixed(2)} s)`;
+    return `${machine.name}: ${name}, ${stay.counted}\n${clock(stay.sinceMs)} to ${clock(until)} (${seconds((until - stay.sinceMs) / 1000)} s)`;
   }
 
   return { draw, listen };

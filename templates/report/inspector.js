@@ -53,11 +53,20 @@ const Inspector = (() => {
     return [...lines, ...within];
   }
 
+  /* The place of a vehicle or of a tool, by its motion: as its controller has it in the present scan. */
+  function measuredText({ number, measured }, signal, ms) {
+    const axis = measured ? signal.number - measured.signal : -1;
+    if (axis < 0 || axis > 2 || !Data.changes(signal.number).at.length || ms > Motion.drawnUntil) return null;
+    const latched = (Math.floor(ms / Data.scanMs + 1e-6) - measured.late) * Data.scanMs;
+    if (latched < 0) return null;
+    const place = measured.what === 'tool' ? Motion.framesAt(number, latched).slice(-1)[0].slice(9) : Motion.positionAt(number, latched);
+    return Data.valueText(signal, place[axis]);
+  }
+
   function updateMachine(ms) {
     const machine = Data.machines[made.machine], stay = Data.stayAt(made.machine, ms);
-    const key = `${stay.index}`;
-    if (made.key !== key) {
-      made.key = key;
+    if (made.key !== stay.key) {
+      made.key = stay.key;
       const state = machine.automaton.states[stay.state];
       const list = transitions(machine, stay);
       const time = element('span', 'time');
@@ -70,10 +79,10 @@ const Inspector = (() => {
         ...(list.length ? [element('h4', '', 'It waits for'), element('ul', 'transitions', ...list)] : []));
       made.time = time;
     }
-    made.time.textContent = `${((ms - stay.sinceMs) / 1000).toFixed(2)} s`;
+    made.time.textContent = stay.counted === 'unknown' ? '' : `${seconds(Data.elapsedAt(made.machine, ms) / 1000)} s`;
     for (const { element: details, rows } of made.groups) {
       if (details.open) rows.forEach(({ signal, cell }) => {
-        const text = Data.valueText(signal, Data.valueAt(signal.number, ms));
+        const text = measuredText(machine, signal, ms) || Data.textAt(signal, ms);
         if (cell.textContent !== text) cell.textContent = text;
       });
     }
@@ -84,12 +93,12 @@ const Inspector = (() => {
     const kind = element('span', 'muted');
     const head = element('div', 'head', element('h3', '', item.name), kind);
     const place = element('p', '');
-    const way = element('ol', 'way', ...Tables.stations(item).map(({ text, ms }) => {
+    const path = element('ol', 'way', ...Tables.stations(item).map(({ text, ms }) => {
       const jump = element('button', 'plain', clock(ms));
       jump.addEventListener('click', () => Player.seek(ms));
       return element('li', '', jump, ' ', text);
     }));
-    box.replaceChildren(head, place, element('h4', '', 'Its path'), way);
+    box.replaceChildren(head, place, element('h4', '', 'Its path'), path);
     return { machine: null, item: number, kind, place };
   }
 

@@ -358,8 +358,11 @@ const Motion = (() => {
     return { place: placeBy(segment, until), turn: turnBy(item, index, until), carrier };
   }
 
+  /* The end of what is drawn. */
+  const drawnUntil = raw.drawn_until_s === null ? Infinity : raw.drawn_until_s * 1000;
+
   return {
-    IDENTITY, items, kindAt, then, point, turned, jointsAt, framesAt, positionAt, headingAt, cylinderFrame, strokeFrame,
+    IDENTITY, drawnUntil, items, kindAt, then, point, turned, jointsAt, framesAt, positionAt, headingAt, cylinderFrame, strokeFrame,
     travelAt, frameOn,
     pointOn, endsOf, outAt, laneOf, itemAt, carrierOf, placeBy, yawOf,
   };

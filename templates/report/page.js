@@ -13,6 +13,17 @@ function byId(id) {
   return document.getElementById(id);
 }
 
+/* A row that is chosen by a click, or by Enter or Space while it has the focus. */
+function choosable(line, choose) {
+  line.tabIndex = 0;
+  line.addEventListener('click', choose);
+  line.addEventListener('keydown', (event) => {
+    if (event.target !== line || ![' ', 'Enter'].includes(event.key)) return;
+    event.preventDefault();
+    choose();
+  });
+}
+
 /* Rows that are shown at first. */
 const MOST_ROWS = 100;
 
@@ -48,14 +59,17 @@ function sortedTable(columns, rows, { chosen, first = 0, empty }) {
       const line = element('tr', chosen ? 'link' : '', ...columns.map((column) => {
         return element('td', column.isNumber ? 'number' : '', column.show(row));
       }));
-      if (chosen) line.addEventListener('click', () => chosen(row));
+      if (chosen) choosable(line, () => chosen(row));
       return line;
     }));
     more.hidden = rows.length <= most;
     more.textContent = `show all ${rows.length} rows`;
   }
   fill();
-  return element('div', 'scroll', element('table', 'data', element('thead', '', element('tr', '', ...heads)), body), more);
+  const box = element('div', 'scroll', element('table', 'data', element('thead', '', element('tr', '', ...heads)), body), more);
+  // So that it is scrolled with the keyboard too.
+  box.tabIndex = 0;
+  return box;
 }
 
 const SVG = 'http://www.w3.org/2000/svg';

@@ -5,10 +5,11 @@ const Plan = (() => {
   const { raw, machines } = Data;
   const { canvas, view, size, toScreen, toWorld, trace, paint, label } = Pen;
   const { still, laneBand, floorOf, boxes, extent, isBridge, OVERHEAD } = Scene;
-  const drawnUntil = raw.drawn_until_s === null ? Infinity : raw.drawn_until_s * 1000;
   /* Pixels over the plan for the name of the topmost machine. */
   const NAME = 18;
   const shown = new Map();
+  /* Of the items that are shown, the lowest first. */
+  const outlines = [];
   let context = null, trail = null;
 
   function fit() {
@@ -169,6 +170,7 @@ const Plan = (() => {
   function drawItems(ms) {
     const colours = Colours.get();
     shown.clear();
+    outlines.length = 0;
     const all = [];
     for (const { number, at, endMs } of Motion.items) {
       if (!at.length || ms < at[0]) continue;
@@ -184,6 +186,7 @@ const Plan = (() => {
       const pose = Motion.turned(turn, place);
       const [w, h] = [kind.size[0] / 2, kind.size[1] / 2];
       const corners = [[-w, -h, 0], [w, -h, 0], [w, h, 0], [-w, h, 0]].map((corner) => Motion.point(pose, corner));
+      outlines.push({ number, place, corners });
       paint({ corners }, colours.kinds[raw.kinds.indexOf(kind) % 8], colours.panel);
       if (number === Player.chosen.item) {
         context.lineWidth = 2.5;
@@ -196,11 +199,13 @@ const Plan = (() => {
 
   /* Items that are drawn large enough, and the chosen one. */
   function nameItems(all, ms) {
-    for (const { number, place } of all) {
+    for (const { number, place, turn } of all) {
       const item = Motion.items[number], { size: [length, width] } = Motion.kindAt(item, ms);
+      // Half of it up and down the canvas, as it is turned.
+      const half = (Math.abs(length * Math.sin(turn)) + Math.abs(width * Math.cos(turn))) / 2;
       if (length * view.scale < 30 && number !== Player.chosen.item) continue;
       const [x, y] = toScreen(place);
-      label(item.name, [x, y + (width / 2) * view.scale + 9], 10);
+      label(item.name, [x, y + half * view.scale + 9], 10);
     }
   }
 
@@ -309,8 +314,8 @@ const Plan = (() => {
     machines.forEach((machine) => Conveyors.drawLamps(machine, ms));
     drawContacts(ms);
     drawNames(ms);
-    if (ms > drawnUntil) {
-      label(`not drawn after ${clock(drawnUntil, 0)}: see the end of the page`, [size[0] / 2, size[1] - 18], 13);
+    if (ms > Motion.drawnUntil) {
+      label(`not drawn after ${clock(Motion.drawnUntil, 0)}: see the end of the page`, [size[0] / 2, size[1] - 18], 13);
     }
   }
 
@@ -332,13 +337,14 @@ const Plan = (() => {
     return Math.hypot(p[0] - a[0] - share * dx, p[1] - a[1] - share * dy) <= Math.max(radius, 4 / view.scale);
   }
 
-  /* What is at a place of the canvas: an item, else the machine on top. */
+  /* What is at a place of the canvas: the item on top, else the machine on top. */
   function hit(pixel, ms) {
     const p = toWorld(pixel);
-    for (const { number, name } of Motion.items) {
-      const place = shown.get(name);
-      if (place && Math.hypot(place[0] - p[0], place[1] - p[1]) < Math.max(0.05, 5 / view.scale)) return { item: number };
-    }
+    const highestFirst = [...outlines].reverse();
+    // Small ones are hit near their middles too.
+    const item = highestFirst.find(({ corners }) => isInside(corners, p))
+      || highestFirst.find(({ place }) => Math.hypot(place[0] - p[0], place[1] - p[1]) < 5 / view.scale);
+    if (item) return { item: item.number };
     const body = [...drawn].reverse().find((body) => !isBridge(body) && isOn(body, p))
       || [...still].reverse().find((body) => body.machine !== null && body.low <= OVERHEAD && isOn(body, p));
     if (body) return { machine: body.machine };

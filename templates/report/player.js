@@ -17,6 +17,7 @@ const Player = (() => {
     Inspector.draw(now);
     byId('now').textContent = clock(now);
     slider.value = String(now);
+    slider.setAttribute('aria-valuetext', clock(now));
   }
 
   function redraw() {
@@ -107,8 +108,9 @@ const Player = (() => {
     document.addEventListener('keydown', (event) => {
       const own = ['INPUT', 'SELECT', 'TEXTAREA'].includes(event.target.tagName) && event.target !== slider;
       const key = KEYS[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-      if (own || !key || event.ctrlKey || event.metaKey || event.altKey) return;
-      // A button that has the focus is not pressed as well.
+      if (own || !key || event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+      // It presses what has the focus.
+      if (event.key === ' ' && ['BUTTON', 'SUMMARY', 'A'].includes(event.target.tagName)) return;
       event.preventDefault();
       key();
     });

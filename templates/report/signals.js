@@ -2,7 +2,7 @@
 /* Signals as a logic analyser shows them: those that were chosen by name, on the time line of the Gantt chart. */
 
 const Signals = (() => {
-  const { GUTTER, view, x, clipped } = Timeline;
+  const { gutter, view, x, clipped, squeezed } = Timeline;
   const ROW = 30, WAVE = 18;
   const canvas = byId('signals'), search = byId('signal-name'), list = byId('signal-list');
   const MOST_FOUND = 60;
@@ -18,22 +18,26 @@ const Signals = (() => {
     chosen.unshift(...Data.signals.filter(({ name }) => name === 'running'));
   }
 
-  function truth(context, { at, value }, y, width) {
+  const isNumber = ({ form }) => form === 'real' || form === 'continuous';
+
+  function truth(context, { at, value }, y, end, width) {
     const colours = Colours.get();
     const level = (v) => (v ? y : y + WAVE);
-    let i = Math.max(0, Data.indexAt(at, view.from));
+    const first = Math.max(0, Data.indexAt(at, view.from));
+    let i = first;
     context.beginPath();
-    context.moveTo(GUTTER, level(value[i]));
+    context.moveTo(Math.max(x(at[i], width), gutter(width)), level(value[i]));
     let pixel = -1;
     const high = [];
     for (; i < at.length && at[i] < view.to; i++) {
-      const from = Math.max(x(at[i], width), GUTTER);
-      const to = i + 1 < at.length ? Math.min(x(at[i + 1], width), width) : width;
+      const from = Math.max(x(at[i], width), gutter(width));
+      const to = i + 1 < at.length ? Math.min(x(at[i + 1], width), end) : end;
       if (value[i]) high.push([from, to]);
       // More than one edge in a pixel is one line.
       if (to - from < 0.5 && Math.floor(from) === pixel) continue;
       pixel = Math.floor(from);
-      context.lineTo(from, level(!value[i]));
+      // An edge only where it changes in view.
+      if (i > first) context.lineTo(from, level(!value[i]));
       context.lineTo(from, level(value[i]));
       context.lineTo(to, level(value[i]));
     }
@@ -46,7 +50,7 @@ const Signals = (() => {
     context.globalAlpha = 1;
   }
 
-  function bus(context, signal, { at, value }, y, width) {
+  function bus(context, signal, { at, value }, y, end, width) {
     const colours = Colours.get();
     context.strokeStyle = colours.wave;
     context.lineWidth = 1.25;
@@ -55,8 +59,9 @@ const Signals = (() => {
     context.font = `11px ${colours.font}`;
     let pixel = -1;
     for (let i = Math.max(0, Data.indexAt(at, view.from)); i < at.length && at[i] < view.to; i++) {
-      const from = Math.max(x(at[i], width), GUTTER);
-      const to = i + 1 < at.length ? Math.min(x(at[i + 1], width), width) : width;
+      const from = Math.max(x(at[i], width), gutter(width));
+      const to = i + 1 < at.length ? Math.min(x(at[i + 1], width), end) : end;
+      if (to <= from) continue;
       if (to - from < 1.5) {
         if (Math.floor(from) !== pixel) context.fillRect(Math.floor(from), y, 1, WAVE);
         pixel = Math.floor(from);
@@ -79,8 +84,9 @@ const Signals = (() => {
     }
   }
 
-  /* Numbers that change all the while are known where something happened, and joined by lines between. */
-  function real(context, { at, value }, y, width) {
+  /* Numbers that change while something moves are known where something happened, and joined by lines between; all others
+     hold until they change. */
+  function real(context, signal, { at, value }, y, width) {
     const colours = Colours.get();
     let low = Infinity, high = -Infinity;
     for (const v of value) {
@@ -91,14 +97,17 @@ const Signals = (() => {
     const begin = Math.max(0, Data.indexAt(at, view.from));
     context.save();
     context.beginPath();
-    context.rect(GUTTER, y - 2, width - GUTTER, WAVE + 4);
+    context.rect(gutter(width), y - 2, width - gutter(width), WAVE + 4);
     context.clip();
     context.beginPath();
     for (let i = begin; i < at.length; i++) {
-      context[i === begin ? 'moveTo' : 'lineTo'](x(at[i], width), level(value[i]));
+      const px = x(at[i], width);
+      if (i === begin) context.moveTo(px, level(value[i]));
+      else if (signal.form === 'real') context.lineTo(px, level(value[i - 1]));
+      context.lineTo(px, level(value[i]));
       if (at[i] > view.to) break;
     }
-    context.lineTo(x(Data.endMs, width), level(value[value.length - 1]));
+    if (at[at.length - 1] <= view.to) context.lineTo(x(Data.knownUntil(signal), width), level(value[value.length - 1]));
     context.strokeStyle = colours.wave;
     context.lineWidth = 1.25;
     context.stroke();
@@ -107,8 +116,8 @@ const Signals = (() => {
     context.textAlign = 'right';
     context.fillStyle = colours.muted;
     const short = (v) => String(Math.round(v * 1000) / 1000);
-    context.fillText(short(high), GUTTER - 22, y + 3);
-    if (high > low) context.fillText(short(low), GUTTER - 22, y + WAVE - 2);
+    context.fillText(short(high), gutter(width) - 22, y + 3);
+    if (high > low) context.fillText(short(low), gutter(width) - 22, y + WAVE - 2);
   }
 
   function draw() {
@@ -122,19 +131,20 @@ const Signals = (() => {
       const y = row * ROW + (ROW - WAVE) / 2;
       const changes = Data.changes(signal.number);
       if (changes.at.length) {
-        if (signal.form === 'truth') truth(context, changes, y, width);
-        else if (signal.form === 'real') real(context, changes, y, width);
-        else bus(context, signal, changes, y, width);
+        const end = Math.min(x(Data.knownUntil(signal), width), width);
+        if (signal.form === 'truth') truth(context, changes, y, end, width);
+        else if (isNumber(signal)) real(context, signal, changes, y, width);
+        else bus(context, signal, changes, y, end, width);
       }
       context.fillStyle = colours.panel;
-      context.fillRect(0, row * ROW, GUTTER - (signal.form === 'real' ? 60 : 0), ROW);
+      context.fillRect(0, row * ROW, gutter(width) - (isNumber(signal) ? 60 : 0), ROW);
       context.font = `12px ${colours.font}`;
       context.textAlign = 'left';
       context.textBaseline = 'middle';
       context.fillStyle = colours.ink;
-      context.fillText(clipped(context, signal.name, GUTTER - (signal.form === 'real' ? 82 : 40)), 8, y + WAVE / 2);
+      context.fillText(squeezed(context, signal.name, gutter(width) - (isNumber(signal) ? 82 : 40)), 8, y + WAVE / 2);
       context.fillStyle = colours.muted;
-      context.fillText('×', GUTTER - 18, y + WAVE / 2);
+      context.fillText('×', gutter(width) - 18, y + WAVE / 2);
       context.fillStyle = colours.grid;
       context.fillRect(0, (row + 1) * ROW - 1, width, 1);
     });
@@ -146,6 +156,11 @@ const Signals = (() => {
     Player.redraw();
   }
 
+  function remove(signal) {
+    chosen = chosen.filter((other) => other !== signal);
+    Player.redraw();
+  }
+
   function find() {
     const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
     list.replaceChildren();
@@ -153,9 +168,11 @@ const Signals = (() => {
     if (!words.length) return;
     const found = Data.signals.filter(({ name }) => words.every((word) => name.toLowerCase().includes(word)));
     for (const signal of found.slice(0, MOST_FOUND)) {
-      const entry = element('button', 'entry', element('span', '', signal.name), element('span', 'muted', signal.group));
+      const isShown = chosen.includes(signal);
+      const entry = element('button', 'entry', element('span', '', signal.name), element('span', 'muted', isShown ? 'shown: remove' : signal.group));
       entry.addEventListener('click', () => {
-        add(signal);
+        if (isShown) remove(signal);
+        else add(signal);
         search.value = '';
         find();
       });
@@ -177,7 +194,8 @@ const Signals = (() => {
       }
     });
     Timeline.listen(canvas, (px, py) => {
-      if (px < GUTTER && px > GUTTER - 28) {
+      const right = gutter(canvas.clientWidth);
+      if (px < right && px > right - 28) {
         chosen.splice(Math.floor(py / ROW), 1);
         Player.redraw();
       }

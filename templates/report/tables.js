@@ -28,12 +28,22 @@ const Tables = (() => {
     });
   }
 
+  /* When an item came and when it left, null if it did not: of the whole run, also if the drawing ends before. */
+  function life({ number, segments, endMs }) {
+    if (Data.raw.lives) {
+      const [begin = null, end = null] = Data.raw.lives[number];
+      return { begin, end };
+    }
+    if (!segments.length) return { begin: null, end: null };
+    const isGone = ['sink', 'collector', 'part', 'order'].includes(Motion.carrierOf(segments[segments.length - 1]).what);
+    return { begin: segments[0][0], end: isGone ? endMs : null };
+  }
+
   function items() {
-    const rows = Motion.items.filter((item) => item.segments.length).map((item) => {
-      const way = stations(item);
-      const isGone = ['sink', 'collector', 'part', 'order'].includes(Motion.carrierOf(item.segments[item.segments.length - 1]).what);
-      return { item, way, begin: item.segments[0][0], end: isGone ? item.endMs : null };
-    });
+    const rows = Motion.items.map((item) => ({ item, stations: stations(item), ...life(item) })).filter(({ begin }) => begin !== null);
+    const { drawnUntil } = Motion;
+    const path = ({ stations: all, end }) => [...all.map(({ text }) => text),
+      ...((end === null ? Data.endMs : end) > drawnUntil ? [`… (not known after ${clock(drawnUntil, 0)})`] : [])].join(' → ');
     const kind = ({ item }) => item.kinds.map(([, number]) => Data.raw.kinds[number].name).join(' → ');
     return sortedTable([
       { name: 'item', show: ({ item }) => item.name, sort: ({ item }) => item.name },
@@ -41,7 +51,7 @@ const Tables = (() => {
       { name: 'came', isNumber: true, show: (r) => clock(r.begin), sort: (r) => r.begin },
       { name: 'left', isNumber: true, show: (r) => (r.end === null ? '–' : clock(r.end)), sort: (r) => r.end },
       { name: 'on the line, s', isNumber: true, show: (r) => (r.end === null ? '–' : seconds((r.end - r.begin) / 1000)), sort: (r) => (r.end === null ? null : r.end - r.begin) },
-      { name: 'path', show: ({ way }) => way.map(({ text }) => text).join(' → ') },
+      { name: 'path', show: path },
     ], rows, {
       first: 2,
       chosen: ({ item, begin }) => {

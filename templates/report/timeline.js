@@ -2,7 +2,8 @@
 /* The time line that the Gantt chart and the signals share: what part of the run is seen, and its axis. */
 
 const Timeline = (() => {
-  const GUTTER = 168;
+  /* For the names at the left: less on a narrow screen, px. */
+  const gutter = (width) => Math.min(Math.max(0.24 * width, 104), 168);
   const view = { from: 0, to: Math.max(Data.endMs, 1) };
   const listeners = [];
   /* So much is seen at least, ms. */
@@ -20,14 +21,14 @@ const Timeline = (() => {
     show(centre - (centre - view.from) / factor, centre + (view.to - centre) / factor);
   }
 
-  const x = (ms, width) => GUTTER + ((ms - view.from) / (view.to - view.from)) * (width - GUTTER);
-  const ms = (px, width) => view.from + ((px - GUTTER) / (width - GUTTER)) * (view.to - view.from);
+  const x = (ms, width) => gutter(width) + ((ms - view.from) / (view.to - view.from)) * (width - gutter(width));
+  const ms = (px, width) => view.from + ((px - gutter(width)) / (width - gutter(width))) * (view.to - view.from);
 
   const STEPS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 15000, 30000, 60000, 120000, 300000, 600000,
     900000, 1800000, 3600000, 7200000, 14400000, 21600000];
 
   function ticks(width) {
-    const step = STEPS.find((ms) => (ms / (view.to - view.from)) * (width - GUTTER) >= 84) || 43200000;
+    const step = STEPS.find((ms) => (ms / (view.to - view.from)) * (width - gutter(width)) >= 84) || 43200000;
     const all = [];
     for (let at = Math.ceil(view.from / step) * step; at <= view.to; at += step) all.push(at);
     return { all, decimals: step >= 1000 ? 0 : step >= 100 ? 1 : 2 };
@@ -52,7 +53,7 @@ const Timeline = (() => {
     context.fillStyle = colours.muted;
     for (const at of top ? all : []) {
       const text = clock(at, decimals), half = context.measureText(text).width / 2;
-      context.fillText(text, Math.min(Math.max(x(at, width), GUTTER + half), width - half - 2), top / 2);
+      context.fillText(text, Math.min(Math.max(x(at, width), gutter(width) + half), width - half - 2), top / 2);
     }
   }
 
@@ -60,7 +61,7 @@ const Timeline = (() => {
   function violation(context, width, height) {
     const { violation } = Data.results;
     const px = violation ? x(violation.at_s * 1000, width) : -1;
-    if (px < GUTTER || px > width) return;
+    if (px < gutter(width) || px > width) return;
     context.strokeStyle = Colours.get().bad;
     context.lineWidth = 2;
     context.setLineDash([5, 3]);
@@ -74,7 +75,7 @@ const Timeline = (() => {
   /* Where the plan is. */
   function cursor(context, width, height) {
     const px = x(Player.time(), width);
-    if (px >= GUTTER && px <= width) {
+    if (px >= gutter(width) && px <= width) {
       context.strokeStyle = Colours.get().accent;
       context.lineWidth = 1.5;
       context.beginPath();
@@ -94,7 +95,7 @@ const Timeline = (() => {
         zoom(Math.exp(-event.deltaY / 300), ms(event.offsetX, canvas.clientWidth));
       } else if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
         event.preventDefault();
-        const by = (((event.deltaX || event.deltaY) / (canvas.clientWidth - GUTTER)) * (view.to - view.from));
+        const by = (((event.deltaX || event.deltaY) / (canvas.clientWidth - gutter(canvas.clientWidth))) * (view.to - view.from));
         show(view.from + by, view.to + by);
       }
     }, { passive: false });
@@ -108,13 +109,13 @@ const Timeline = (() => {
       if (Math.abs(by) > 4) grabbed.isMoved = true;
       if (!grabbed.isMoved) return;
       const span = grabbed.to - grabbed.from;
-      const shift = (-by / (canvas.clientWidth - GUTTER)) * span;
+      const shift = (-by / (canvas.clientWidth - gutter(canvas.clientWidth))) * span;
       show(grabbed.from + shift, grabbed.to + shift);
     });
     canvas.addEventListener('pointerup', (event) => {
       if (grabbed && !grabbed.isMoved) {
         press(event.offsetX, event.offsetY);
-        if (event.offsetX >= GUTTER) Player.seek(ms(event.offsetX, canvas.clientWidth));
+        if (event.offsetX >= gutter(canvas.clientWidth)) Player.seek(ms(event.offsetX, canvas.clientWidth));
       }
       grabbed = null;
     });
@@ -129,5 +130,14 @@ const Timeline = (() => {
     return end > 1 ? text.slice(0, end) + '…' : '';
   }
 
-  return { GUTTER, view, show, zoom, x, ms, axis, cursor, listen, clipped, onChange: (f) => listeners.push(f) };
+  /* Text that is too long has dots in its middle: names often differ at their ends. */
+  function squeezed(context, text, width) {
+    if (context.measureText(text).width <= width) return text;
+    let kept = text.length - 1;
+    const short = () => `${text.slice(0, Math.ceil(kept / 2))}…${text.slice(text.length - Math.floor(kept / 2))}`;
+    while (kept > 2 && context.measureText(short()).width > width) kept--;
+    return short();
+  }
+
+  return { gutter, view, show, zoom, x, ms, axis, cursor, listen, clipped, squeezed, onChange: (f) => listeners.push(f) };
 })();

@@ -28,7 +28,7 @@ fn run(texts: &Texts) -> Run {
     let outcome = texts.compile();
     let project = outcome.project.expect("a line that is right");
     let (line, mut executor) = (&project.plant, Executor::new(&project.system));
-    let watched = report::watched(&project.system);
+    let watched = report::watched(&project.system, line);
     let ignore = &mut |_: &Seen| {};
     let recorded = record(line, &mut executor, Stepping::Events, &watched, ignore).expect("a run");
     let results: Value = serde_json::from_str(&recorded.report.to_json()).expect("JSON");
@@ -145,7 +145,7 @@ fn the_page_draws_plays_and_zooms_and_shows_the_places_of_the_run() {
             compared += shown.len();
         }
         assert!(compared >= 10, "{name}: {compared} places");
-        assert_ne!(data(&run.page)["limit"]["path"], json!([]), "{name}");
+        assert_ne!(data(&run.page)["path"], json!([]), "{name}");
         // The mill makes another kind of what it cuts; an item keeps its name.
         assert_eq!(became > 0, name == "tending", "{name}");
 
@@ -250,11 +250,12 @@ fn the_path_that_limits_a_run_has_no_gap() {
         let data = data(&run.page);
         let limit = &data["limit"];
         let scan_ms = data["scan_ms"].as_f64().expect("a number");
-        let legs: Vec<[u64; 3]> = serde_json::from_value(limit["path"].clone()).expect("a list of legs");
+        let legs: Vec<[u64; 3]> = serde_json::from_value(data["path"].clone()).expect("a list of legs");
         assert!(legs.windows(2).all(|pair| pair[0][2] == pair[1][1]), "{name}: {legs:?}");
         assert_eq!(legs.first().map(|leg| leg[1]), Some(0), "{name}");
         let shares = limit["machines"].as_array().expect("a list").iter();
         let sum: f64 = shares.map(|share| share["s"].as_f64().expect("a number")).sum();
+        let sum = sum + limit["stands_s"].as_f64().expect("a number");
         let end = legs.last().map_or(0, |leg| leg[2]);
         assert!((sum - end as f64 * scan_ms / 1000.0).abs() < 1e-6, "{name}: {sum}");
         assert!(end <= run.recorded.report.scans);
@@ -296,6 +297,23 @@ fn faults_of_the_scenario_are_told() {
     let expected =
         [(9.0, 0, "is_red sticks: it reads true"), (11.0, 0, "is_red is free"), (12.5, 0, "second_arm jams")];
     assert_eq!(told, expected);
+}
+
+/// A pause is told with its times, and is the share of no machine on the path that limits the run.
+#[test]
+fn a_pause_limits_a_run_but_is_no_work() {
+    let mut texts = default_line();
+    let pause = r#"{"faults": {"pauses": [{"at_s": 30, "for_s": 5}]},"#;
+    texts.scenario = texts.scenario.map(|text| text.replacen('{', pause, 1));
+    let data = data(&run(&texts).page);
+    let told = data["alarms"].as_array().expect("a list").iter();
+    let told: Vec<(f64, &str)> = told
+        .map(|row| (row[0].as_f64().expect("a number"), row[2].as_str().expect("a text")))
+        .filter(|(_, text)| text.contains("run_permit"))
+        .collect();
+    assert_eq!(told, [(30.0, "run_permit falls: the line stops"), (35.0, "run_permit is back")]);
+    // Two scans before the first start, and one from the permit to the next start.
+    assert_eq!(data["limit"]["stands_s"], json!(5.03));
 }
 
 /// The states of the page are those of the accounts.

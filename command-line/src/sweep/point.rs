@@ -57,7 +57,7 @@ pub fn page(plan: &Plan, number: RunNumber) -> Result<String, String> {
     let made = catch_unwind(AssertUnwindSafe(|| {
         let Ready { made, plant, mut controllers } = ready(plan, &point, number.replication, Notice::None)?;
         let project = &made.project;
-        let watched = report::watched(&project.system);
+        let watched = report::watched(&project.system, &plant);
         let ignore = &mut |_: &Seen| {};
         let run = |memory: &mut Memory| {
             record_again(&plant, &mut controllers, Stepping::Events, memory, &watched, ignore)

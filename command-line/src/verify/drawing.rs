@@ -26,7 +26,7 @@ pub fn page(project: &Project, teller: &Teller, shown: &Shown) -> Result<String,
         )));
     }
     let mut executor = Executor::new(&project.system);
-    let watched = report::watched(&project.system);
+    let watched = report::watched(&project.system, &replay.line);
     let recorded = record(&replay.line, &mut executor, Stepping::Events, &watched, &mut |_| {})?;
     let mut results = results(&recorded.report, project, teller.sources)?;
     results["violation"] = json!({ "at_s": seconds, "text": teller.title(shown.violation) });

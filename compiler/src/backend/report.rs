@@ -10,6 +10,7 @@ macro_rules! part {
 
 mod acts;
 mod alarms;
+mod answers;
 mod automata;
 mod faults;
 mod handovers;
@@ -20,6 +21,7 @@ mod motions;
 mod numbers;
 mod paths;
 mod signals;
+mod standstills;
 mod states;
 pub mod story;
 pub mod sweep;
@@ -36,9 +38,10 @@ use runtime_sim::item;
 use runtime_sim::line::Line;
 use runtime_sim::run::Recorded;
 use serde_json::{Value, json};
+use standstills::Standstills;
 
 /// Of the data and its version.
-pub const FORMAT: &str = "autogen report 1";
+pub const FORMAT: &str = "autogen report 2";
 
 #[derive(Template)]
 #[template(path = "report/report.html", escape = "html")]
@@ -73,8 +76,9 @@ const SCRIPTS: &[&str] = &[
 pub const MARK: &str = "<!doctype html>\n<html lang=\"en\">\n<!-- Written by autogen -->";
 
 /// The words that a run has to be watched for.
-pub fn watched(system: &System) -> Vec<Source> {
-    signals::signals(system).into_iter().map(|signal| signal.source).collect()
+pub fn watched(system: &System, line: &Line) -> Vec<Source> {
+    let signals = signals::signals(system).into_iter().map(|signal| signal.source);
+    signals.chain(alarms::watched(line)).collect()
 }
 
 /// The page of a run. `results` are those that are written beside it; the words of the history are [`watched`].
@@ -102,13 +106,15 @@ fn data(project: &Project, sources: &Sources, line: &Line, recorded: &Recorded, 
     let signals = signals::signals(system);
     let end = history.words_until.unwrap_or(report.scans).min(report.scans);
     let acts = acts::acts(history, &signals, end);
-    let path = limit::Run { line, events: &history.events, acts: &acts, end }.path();
+    let standstills = Standstills::new(history, &signals, end);
+    let path =
+        limit::Run { line, events: &history.events, acts: &acts, standstills: &standstills, end }.path();
     let types: Vec<usize> = system.instances.iter().map(|instance| instance.automaton.0).collect();
     let names = item::Names::new(line).all();
     let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
     let items = names.iter().zip(kinds).zip(&recorded.paths);
     let items: Vec<Value> = items.map(|((name, kind), path)| paths::item_json(name, *kind, path)).collect();
-    let long = Long::new(line, recorded, &signals);
+    let long = Long::new(line, recorded, &signals, &path);
     let mut machines = machine::machines(line, &signals);
     for (number, machine) in machines.iter_mut().enumerate() {
         let times = states::times(&history.machines[number], report.scans).into_iter();
@@ -130,13 +136,16 @@ fn data(project: &Project, sources: &Sources, line: &Line, recorded: &Recorded, 
         "machines": machines,
         "throughput": throughput::throughput(&history.events, u64::from(line.scan_ms), report.scans * u64::from(line.scan_ms)),
         "obstacles": machine::obstacles(line),
-        "signals": signals::signals_json(&signals),
+        "signals": signals::signals_json(line, &signals),
         "words_until_s": history.words_until.map(|scan| (scan * u64::from(line.scan_ms)) as f64 / 1000.0),
         "items": items,
         "alarms": alarms::alarms(line, recorded, &signals, results),
-        "limit": limit::limit_json(line, &path),
+        "limit": limit::limit_json(line, &path, &standstills),
         "left_out": long.left_out,
         "drawn_until_s": long.drawn_until_s,
+        "states_until_s": long.states_until_s,
+        "signals_until_s": long.signals_until_s,
+        "lives": long.drawn_until_s.map(|_| paths::lives(&recorded.paths)),
     });
     let mut data = head.to_string();
     // The object stays open for what is long.

@@ -29,8 +29,9 @@ pub fn acts(history: &History, signals: &[Signal], end: u64) -> Vec<Acts> {
     let mut all: Vec<Acts> = history.machines.iter().map(|machine| stays(machine, end)).collect();
     for (signal, word) in signals.iter().zip(&history.words) {
         let Some(machine) = signal.machine else { continue };
-        // The first entry is the value at the start.
-        let scans = word.changes.iter().skip(1).map(|(scan, _)| *scan).filter(|scan| *scan < end);
+        // The first entry is the value at the start; some are there to say that a value is still the same.
+        let pairs = word.changes.windows(2).filter(|pair| pair[0].1.to_bits() != pair[1].1.to_bits());
+        let scans = pairs.map(|pair| pair[1].0).filter(|scan| *scan < end);
         match (signal.group, signal.source) {
             (Some(Group::Input), Source::Input { word, .. }) => {
                 let inputs = &mut all[machine].inputs;
@@ -50,22 +51,30 @@ pub fn acts(history: &History, signals: &[Signal], end: u64) -> Vec<Acts> {
 
 fn stays(machine: &MachineHistory, end: u64) -> Acts {
     let mut acts = Acts::default();
-    for stay in machine.stays.iter().filter(|stay| stay.scan < end) {
-        match acts.stays.last_mut() {
-            // What it is counted as has changed alone.
-            Some(last) if last.state == stay.state => continue,
-            Some(last) => {
-                last.end = stay.scan;
-                acts.acted.push(stay.scan);
-            }
-            None => {}
+    let mut again = machine.entered_again().peekable();
+    for (number, stay) in machine.stays.iter().enumerate().filter(|(_, stay)| stay.scan < end) {
+        let is_same = |last: &&mut Stay| last.state == stay.state;
+        // If it is, what it is counted as has changed alone.
+        if acts.stays.last_mut().filter(is_same).is_none() {
+            acts.enter(stay.scan, end, stay.state);
         }
-        acts.stays.push(Stay { begin: stay.scan, end, state: stay.state });
+        let next = machine.stays.get(number + 1).map_or(end, |next| next.scan.min(end));
+        while let Some(scan) = again.next_if(|scan| *scan < next) {
+            acts.enter(scan, end, stay.state);
+        }
     }
     acts
 }
 
 impl Acts {
+    fn enter(&mut self, begin: u64, end: u64, state: usize) {
+        if let Some(last) = self.stays.last_mut() {
+            last.end = begin;
+            self.acted.push(begin);
+        }
+        self.stays.push(Stay { begin, end, state });
+    }
+
     /// The stay that lasts up to this scan.
     pub fn before(&self, scan: u64) -> Option<Stay> {
         let number = self.stays.partition_point(|stay| stay.begin < scan);
@@ -81,7 +90,7 @@ impl Acts {
         self.acted.binary_search(&scan).is_ok()
     }
 
-    /// Whether it has left a state for another one in this scan.
+    /// Whether it has left a state in this scan.
     pub fn has_left(&self, scan: u64) -> bool {
         self.before(scan).is_some_and(|stay| stay.end == scan)
     }

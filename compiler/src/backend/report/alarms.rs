@@ -1,46 +1,59 @@
 //! What went wrong or was stopped in a run, with its times.
 
+use super::answers::{self, Head};
 use super::faults;
 use super::signals::Signal;
 use runtime_sim::device::error;
-use runtime_sim::history::Word;
 use runtime_sim::io_trace::Source;
 use runtime_sim::line::Line;
 use runtime_sim::run::Recorded;
-use runtime_sim::wiring;
+use runtime_sim::wiring::{self, Drives};
 use serde_json::{Value, json};
+use std::collections::HashMap;
+
+/// The words of alarms that a run has to be watched for besides the signals: whether each is active, by machine.
+pub fn watched(line: &Line) -> Vec<Source> {
+    let alarms = line.machines.iter().flat_map(|machine| &machine.monitor.alarms);
+    alarms.map(|alarm| Source::Trace(alarm.word)).collect()
+}
 
 /// Time in s, number of the machine or -1, and what happened; in the order of time.
 pub fn alarms(line: &Line, recorded: &Recorded, signals: &[Signal], results: &Value) -> Vec<Value> {
-    let kinds = line.kinds.len();
-    let errors: Vec<Option<usize>> =
-        line.machines.iter().map(|machine| machine.wiring.input_at(wiring::Source::Error, kinds)).collect();
     let end = recorded.report.scans;
+    let words = &recorded.history.words;
     let mut alarms: Vec<(u64, i64, String)> = faults::faults(line, signals);
     alarms.retain(|(scan, ..)| *scan < end);
-    for (signal, word) in signals.iter().zip(&recorded.history.words) {
-        let machine = signal.machine.map_or(-1, |machine| machine as i64);
-        let mut put = |scan: u64, text: String| alarms.push((scan, machine, text));
-        match signal.source {
-            Source::Input { machine, word: at } if errors[machine] == Some(at) => {
-                let mut last_ms = None;
-                for (scan, code) in answers(word) {
-                    let at_ms = scan * u64::from(line.scan_ms);
-                    put(scan, answer_text(code, reason(recorded, machine, code, last_ms, at_ms)));
-                    last_ms = Some(at_ms);
-                }
+    let numbers: HashMap<Source, usize> =
+        words.iter().enumerate().map(|(number, word)| (word.source, number)).collect();
+    let word = |source: Source| numbers.get(&source).map(|number| &words[*number]);
+    for (machine, described) in line.machines.iter().enumerate() {
+        let input = |of| described.wiring.input_at(of, line.kinds.len());
+        let read = |of| word(Source::Input { machine, word: input(of)? });
+        let cmd = described.wiring.output_at(Drives::Command, line.kinds.len());
+        let cmd = cmd.and_then(|at| word(Source::Output { machine, word: at }));
+        let (Some(cmd), Some(ack), Some(error)) =
+            (cmd, read(wiring::Source::Ack), read(wiring::Source::Error))
+        else {
+            continue;
+        };
+        let mut last_ms = None;
+        for (scan, code) in answers::errors(&Head { cmd, ack, error }) {
+            let at_ms = scan * u64::from(line.scan_ms);
+            let text = answer_text(code, reason(recorded, machine, code, last_ms, at_ms));
+            alarms.push((scan, machine as i64, text));
+            last_ms = Some(at_ms);
+        }
+    }
+    for (scan, permit) in word(Source::RunPermit).into_iter().flat_map(|word| word.changes.iter().skip(1)) {
+        let text = if *permit == 0.0 { "run_permit falls: the line stops" } else { "run_permit is back" };
+        alarms.push((*scan, -1, text.into()));
+    }
+    for (machine, described) in line.machines.iter().enumerate() {
+        for alarm in &described.monitor.alarms {
+            let active = word(Source::Trace(alarm.word)).map(|word| word.changes.as_slice());
+            if let Some((scan, 0.0)) = active.filter(|changes| changes.len() > 1).and_then(|all| all.last()) {
+                alarms.push((*scan, machine as i64, format!("alarm {} is not active any more", alarm.code)));
             }
-            Source::RunPermit => {
-                for (scan, permit) in word.changes.iter().skip(1) {
-                    let text = if *permit == 0.0 {
-                        "run_permit falls: the line stops"
-                    } else {
-                        "run_permit is back"
-                    };
-                    put(*scan, text.into());
-                }
-            }
-            _ => {}
         }
     }
     let seconds = |scan: u64| (scan * u64::from(line.scan_ms)) as f64 / 1000.0;
@@ -83,17 +96,13 @@ fn raised(line: &Line, results: &Value) -> Vec<(f64, i64, String)> {
     let one = |alarm: &Value| {
         let again = match alarm["count"].as_u64()? {
             1 => String::new(),
-            count => format!(", {count} times until {:.2} s", alarm["last_s"].as_f64()?),
+            count => format!(", {count} times until {} s", alarm["last_s"].as_f64()?),
         };
-        let text = format!("alarm {}: {}{again}", alarm["code"], alarm["text"].as_str()?);
+        let lasts = if alarm["active"] == true { ", active at the end" } else { "" };
+        let text = format!("alarm {}: {}{again}{lasts}", alarm["code"], alarm["text"].as_str()?);
         Some((alarm["first_s"].as_f64()?, machine(line, alarm), text))
     };
     alarms.filter_map(one).collect()
-}
-
-/// When a word became other than 0.
-fn answers(word: &Word) -> impl Iterator<Item = (u64, i32)> {
-    word.changes.iter().filter(|(_, value)| *value != 0.0).map(|(scan, value)| (*scan, *value as i32))
 }
 
 /// Why the last command that ended in this error by then, and after the answer before, did.

@@ -6,9 +6,11 @@
 //! continues with who has put it. Otherwise another machine has let it continue, which acted in this scan before it, or in the
 //! one before: what the machine waited until then cost nothing by itself, and the path continues with the other one. So
 //! the shares add up to the whole time, and whoever shortens a stay on the path shortens the run, by at most this time.
+//! Scans in which the line does not run are the share of no machine.
 
 use super::acts::{Acts, Stay};
 use super::handovers::{Handover, Handovers};
+use super::standstills::Standstills;
 use runtime_sim::carrier::Carrier;
 use runtime_sim::event::{Event, OrderChange};
 use runtime_sim::line::{Line, State};
@@ -39,6 +41,7 @@ pub struct Run<'a> {
     pub line: &'a Line,
     pub events: &'a [Event],
     pub acts: &'a [Acts],
+    pub standstills: &'a Standstills,
     /// The scan up to which it is known.
     pub end: u64,
 }
@@ -129,8 +132,11 @@ impl Run<'_> {
         let state = self.line.machines[machine].states.get(stay.state)?;
         let own = &self.acts[machine];
         let scan_ms = u64::from(self.line.scan_ms);
-        let passed = (scan - stay.begin) * scan_ms;
-        let is_over = |timer: &u32| (passed..passed + scan_ms).contains(&u64::from(*timer)) && passed > 0;
+        let stood = self.standstills.scans(stay.begin, scan);
+        let passed = (scan - stay.begin).saturating_sub(stood) * scan_ms;
+        // It was not yet one scan before.
+        let is_over =
+            |timer: &u32| (passed.saturating_sub(scan_ms) + 1..=passed).contains(&u64::from(*timer));
         if state.timers.iter().flatten().any(is_over)
             || words(state).any(|word| own.input_changed(word, scan))
         {
@@ -183,12 +189,18 @@ impl Path {
     }
 }
 
-/// Shares of the machines and of their states, the greatest first, with the path.
-pub fn limit_json(line: &Line, path: &[Leg]) -> Value {
+/// Shares of the machines and of their states, the greatest first, and that of standstills of the line.
+pub fn limit_json(line: &Line, path: &[Leg], standstills: &Standstills) -> Value {
     let seconds = |scans: u64| (scans * u64::from(line.scan_ms)) as f64 / 1000.0;
     let mut shares: BTreeMap<usize, BTreeMap<usize, u64>> = BTreeMap::new();
+    let mut stood = 0;
     for leg in path {
-        *shares.entry(leg.machine).or_default().entry(leg.state).or_default() += leg.end - leg.begin;
+        let standing = standstills.scans(leg.begin, leg.end);
+        stood += standing;
+        let own = leg.end - leg.begin - standing;
+        if own > 0 {
+            *shares.entry(leg.machine).or_default().entry(leg.state).or_default() += own;
+        }
     }
     let greatest_first = |states: &BTreeMap<usize, u64>| {
         let mut states: Vec<(usize, u64)> = states.iter().map(|(state, scans)| (*state, *scans)).collect();
@@ -201,11 +213,10 @@ pub fn limit_json(line: &Line, path: &[Leg]) -> Value {
     let machines = machines.into_iter().map(|(machine, scans)| {
         json!({ "machine": machine, "s": seconds(scans), "states": greatest_first(&shares[&machine]) })
     });
-    let legs = path.iter().rev().map(|leg| json!([leg.machine, leg.begin, leg.end]));
     json!({
         "from_s": path.last().map(|leg| seconds(leg.begin)),
         "to_s": path.first().map(|leg| seconds(leg.end)),
         "machines": machines.collect::<Vec<_>>(),
-        "path": legs.collect::<Vec<_>>(),
+        "stands_s": seconds(stood),
     })
 }

@@ -5,7 +5,7 @@ use crate::backend::footprint;
 use runtime_sim::io_trace::Source;
 use runtime_sim::kinematics::links::Joint;
 use runtime_sim::kinematics::pose::Pose;
-use runtime_sim::line::{Line, Obstacle};
+use runtime_sim::line::{IoDelay, Line, Obstacle};
 use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
 use runtime_sim::part::lane::CentreLine;
@@ -41,9 +41,37 @@ pub fn machines(line: &Line, signals: &[Signal]) -> Vec<Value> {
                 beam(machine, part, signal.copied())
             })
             .collect();
+        value["measured"] = measured(line, index, &numbers);
         value
     };
     line.machines.iter().enumerate().map(numbered).collect()
+}
+
+/// Where a machine is, as its controller has it: what is measured, the number of the signal of x, which those of y and z
+/// follow, and how many scans late it is. Null if the motions do not say it, or if the sensor sticks for a time.
+fn measured(line: &Line, index: usize, numbers: &HashMap<Source, usize>) -> Value {
+    let machine = &line.machines[index];
+    let what = |primitive: &Primitive| match primitive {
+        Primitive::Chain(_) => Some("tool"),
+        Primitive::Route(_) | Primitive::Track(_) => Some("position"),
+        _ => None,
+    };
+    let mut parts = machine.parts.iter().enumerate();
+    let Some((part, what)) = parts.find_map(|(part, found)| Some((part, what(&found.primitive)?))) else {
+        return Value::Null;
+    };
+    let word = machine.wiring.input_at(wiring::Source::Signal { part, signal: 0 }, line.kinds.len());
+    let signal = word.and_then(|word| numbers.get(&Source::Input { machine: index, word }));
+    let sticks = line.scenario.sensors.iter().any(|stuck| {
+        stuck.machine == index
+            && word.is_some_and(|word| stuck.word < word + 3 && word < stuck.word + stuck.words)
+    });
+    match (signal, &line.io_delay) {
+        (Some(signal), IoDelay::Fixed(late)) if !sticks => {
+            json!({ "what": what, "signal": signal, "late": late })
+        }
+        _ => Value::Null,
+    }
 }
 
 pub fn obstacles(line: &Line) -> Vec<Value> {

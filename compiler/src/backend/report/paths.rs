@@ -30,6 +30,17 @@ pub fn item_json(name: &str, kind: usize, path: &Path) -> Value {
     }
 }
 
+/// When each item came and when it left, ms; null for what it did not do. Nothing for one that never came.
+pub fn lives(paths: &[Path]) -> Vec<Value> {
+    let life = |path: &Path| {
+        let (Some(first), Some(last)) = (path.segments.first(), path.segments.last()) else {
+            return json!([]);
+        };
+        json!([first.begin_ms, last.carrier.is_final().then_some(last.end_ms)])
+    };
+    paths.iter().map(life).collect()
+}
+
 /// Of the segments those that begin by this time.
 pub fn paths(line: &Line, paths: &[Path], until_ms: f64) -> Paths {
     let mut carriers: Vec<String> = Vec::new();

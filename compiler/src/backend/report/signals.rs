@@ -4,6 +4,7 @@ use super::numbers::{List, list};
 use crate::ir::{Element, Group, Named, Scalar, System};
 use runtime_sim::history::Word;
 use runtime_sim::io_trace::Source;
+use runtime_sim::line::Line;
 use serde_json::{Value, json};
 
 /// A word that a run is watched for.
@@ -116,8 +117,15 @@ fn group_name(group: Option<Group>) -> &'static str {
     }
 }
 
-/// Names and what they stand for; forms that come again are written once.
-pub fn signals_json(signals: &[Signal]) -> Value {
+/// Names and what they stand for; forms that come again are written once. A signal that changes while something moves
+/// has a 1 at the end of its row.
+pub fn signals_json(line: &Line, signals: &[Signal]) -> Value {
+    let analogue: Vec<Vec<bool>> =
+        line.machines.iter().map(|machine| machine.analogue_inputs(line.kinds.len())).collect();
+    let changes_between = |source: Source| match source {
+        Source::Input { machine, word } => analogue[machine].get(word) == Some(&true),
+        _ => false,
+    };
     let mut forms: Vec<&Form> = Vec::new();
     let mut rows = Vec::new();
     for signal in signals {
@@ -126,7 +134,9 @@ pub fn signals_json(signals: &[Signal]) -> Value {
             forms.len() - 1
         });
         let machine = signal.machine.map_or(-1, |machine| machine as i64);
-        rows.push(json!([signal.name, machine, group_name(signal.group), form]));
+        let mut row = vec![json!(signal.name), json!(machine), json!(group_name(signal.group)), json!(form)];
+        row.extend(changes_between(signal.source).then(|| json!(1)));
+        rows.push(row);
     }
     let forms = forms.into_iter().map(|form| match form {
         Form::Truth => json!("truth"),
@@ -137,15 +147,17 @@ pub fn signals_json(signals: &[Signal]) -> Value {
     json!({ "forms": forms.collect::<Vec<_>>(), "rows": rows })
 }
 
-/// Of each word the scans since its change before, and its values; of those that are not kept nothing.
-pub fn changes_json(signals: &[Signal], words: &[Word], is_kept: fn(&Signal) -> bool) -> String {
+/// Of each word the scans since its change before, and its values: those of the line all, those of machines before this
+/// scan, and of those that are not kept nothing.
+pub fn changes_json(signals: &[Signal], words: &[Word], is_kept: fn(&Signal) -> bool, until: u64) -> String {
     list(words.iter().zip(signals).map(|(word, signal)| {
         let mut changes = List::default();
         if !is_kept(signal) {
             return changes.end();
         }
         let mut last = 0;
-        for (scan, value) in &word.changes {
+        let is_within = |(scan, _): &&(u64, f64)| signal.machine.is_none() || *scan < until;
+        for (scan, value) in word.changes.iter().take_while(is_within) {
             changes.put_whole(scan - last).put_whole(short(*value));
             last = *scan;
         }

@@ -1,0 +1,43 @@
+//! When the line did not run: before a start, without the permit, in a fault, without power.
+
+use super::signals::Signal;
+use runtime_sim::history::History;
+use runtime_sim::io_trace::Source;
+
+/// First scans, and those in which the line runs again; in the order of time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Standstills(Vec<(u64, u64)>);
+
+impl Standstills {
+    /// Up to this scan.
+    pub fn new(history: &History, signals: &[Signal], end: u64) -> Self {
+        let running = signals.iter().position(|signal| signal.source == Source::Running);
+        let Some(running) = running.and_then(|number| history.words.get(number)) else {
+            return Self::default();
+        };
+        let ends = running.changes.iter().skip(1).map(|(scan, _)| *scan).chain([end]);
+        let all = running.changes.iter().zip(ends);
+        Self(all.filter(|((_, runs), _)| *runs == 0.0).map(|((begin, _), end)| (*begin, end)).collect())
+    }
+
+    /// Scans from one on and before another in which the line did not run.
+    pub fn scans(&self, from: u64, to: u64) -> u64 {
+        let first = self.0.partition_point(|(_, end)| *end <= from);
+        let within = self.0[first..].iter().take_while(|(begin, _)| *begin < to);
+        within.map(|(begin, end)| (*end).min(to) - (*begin).max(from)).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Standstills;
+
+    #[test]
+    fn scans_of_standstills_within_a_time_are_counted() {
+        let all = Standstills(vec![(0, 2), (10, 20), (30, 31)]);
+        assert_eq!(
+            [(0, 40), (2, 10), (5, 12), (12, 15), (19, 31)].map(|(a, b)| all.scans(a, b)),
+            [13, 0, 2, 3, 2]
+        );
+    }
+}
