@@ -143,18 +143,25 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
                 meet(gap(at, kind), Found { kind, at: lies, is_forgotten: false });
             }
         }
-        let Some(lane) = plant.lane.as_ref().filter(|lane| lane.motion.load(state) == motion::STANDS) else {
+        let Some(lane) = &plant.lane else { continue };
+        let stands = lane.motion.load(state) == motion::STANDS || model.stands(state, machine);
+        // The answer may be late.
+        if !stands && lane.motion.load(state) != motion::STOPS {
             continue;
-        };
+        }
         for (number, zone) in lane.zones.iter().enumerate() {
             let told = |kind: usize| {
                 zone.sees[kind].map_or(sight::OPEN, |input| model.inputs[input].var.load(state))
+            };
+            // Which of several kinds is there nobody has seen.
+            let is_unknown = |kind: usize| {
+                told(kind) == sight::FORGOTTEN || told(kind) == sight::OPEN && zone.found.len() > 1
             };
             for kind in (0..zone.found.len()).filter(|kind| told(*kind) != sight::NOT_SEEN) {
                 let at = Landing::Zone { machine, zone: number };
                 meet(
                     gap(zone.found[kind], kind),
-                    Found { kind, at, is_forgotten: told(kind) == sight::FORGOTTEN },
+                    Found { kind, at, is_forgotten: !stands || is_unknown(kind) },
                 );
             }
         }

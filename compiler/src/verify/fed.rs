@@ -3,18 +3,41 @@
 use super::plant::is_carried;
 use runtime_sim::line::Line;
 use runtime_sim::part::Primitive;
-use runtime_sim::plant::transfers;
+use runtime_sim::plant::{By, transfers};
 use runtime_sim::wiring::Drives;
 use std::collections::BTreeSet;
 
-/// Lanes that get items even while they stand, and places that do: from other conveyors, or from a source that puts them
-/// on when it is asked to. Each by the numbers of its machine and of its part.
+/// Lanes on which items come, go or become others even while they stand, and places that get them from conveyors: by
+/// other conveyors, by a source that puts them on when it is asked to, by diverters, pushers and processes. Each by the
+/// numbers of its machine and of its part.
 pub struct Fed(BTreeSet<(usize, usize)>);
 
 impl Fed {
     pub fn of(line: &Line) -> Self {
-        let mut fed: BTreeSet<_> = transfers(line).into_iter().map(|transfer| transfer.to).collect();
+        let mut fed = BTreeSet::new();
+        for transfer in transfers(line) {
+            fed.insert(transfer.to);
+            if let By::Branch { .. } = transfer.by {
+                fed.insert(transfer.from);
+            }
+        }
+        // With a tray its load comes and goes.
+        let bears = line.kinds.iter().any(|kind| kind.deck.is_some());
         for (number, machine) in line.machines.iter().enumerate() {
+            for (part, of) in machine.parts.iter().enumerate() {
+                match &of.primitive {
+                    Primitive::Lane(_) if bears => {
+                        fed.insert((number, part));
+                    }
+                    Primitive::Process(process)
+                        if process.changes_items()
+                            && matches!(machine.parts[process.on].primitive, Primitive::Lane(_)) =>
+                    {
+                        fed.insert((number, process.on));
+                    }
+                    _ => {}
+                }
+            }
             for output in &machine.wiring.outputs {
                 if let Drives::Level { part, .. } = output.drives
                     && let Primitive::Source(source) = &machine.parts[part].primitive

@@ -289,11 +289,15 @@ pub fn is_commanded(machine: &Machine, part: usize) -> bool {
     commands.iter().any(|command| command.part == part) && !has_rate
 }
 
-/// Whether items may be somewhere that is not searched: on a conveyor without commands, at such a place, or on other items.
+/// Whether items may be somewhere that is not searched: on a conveyor without commands or without a field, at such a
+/// place, or on other items.
 pub fn hides_items(line: &Line, number: usize, fed: &Fed) -> bool {
     let machine = &line.machines[number];
     machine.parts.iter().enumerate().any(|(part, of)| match &of.primitive {
-        Primitive::Lane(_) => !is_commanded(machine, part),
+        Primitive::Lane(_) => {
+            let has_field = (0..machine.parts.len()).any(|field| field_over(machine, field) == Some(part));
+            !is_commanded(machine, part) || !has_field
+        }
         Primitive::Place(place) => {
             !fed.is_known(line, number, part) || fed.has(number, part) || stacks(line, place)
         }

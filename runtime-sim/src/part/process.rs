@@ -79,6 +79,13 @@ pub struct Process {
     pub frees: bool,
 }
 
+impl Process {
+    /// Whether an item is another one after a cycle, or more or fewer.
+    pub fn changes_items(&self) -> bool {
+        !self.makes.is_empty() || !self.rejects.is_empty() || !self.joins.is_empty() || self.frees
+    }
+}
+
 /// Items of a kind of which some become another kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reject {
@@ -112,9 +119,11 @@ fn check_kinds(kinds: Option<&[String]>, makes: &[[String; 2]], rejects: &[Rejec
     if kinds.is_some_and(|kinds| kinds.is_empty()) {
         return Err("kinds is an empty list: name kinds, or leave it out for all kinds".into());
     }
-    if let Some(twice) = makes.iter().enumerate().find(|(number, [kind, _])| {
-        makes[..*number].iter().any(|[other, _]| other == kind)
-    }) {
+    if let Some(twice) = makes
+        .iter()
+        .enumerate()
+        .find(|(number, [kind, _])| makes[..*number].iter().any(|[other, _]| other == kind))
+    {
         return Err(format!("the setting makes says twice what becomes of {}", twice.1[0]));
     }
     let pairs = makes.iter().map(|pair| ("makes", pair));
@@ -140,10 +149,14 @@ fn times(settings: &Settings, kinds: &[String]) -> Result<Vec<Distribution>, Str
     let mut given = Vec::new();
     for name in TIMES {
         let times = settings.optional(name, Settings::times)?;
-        if let Some(times) = times.as_ref().filter(|times| times.is_empty() || ![1, kinds.len()].contains(&times.len())) {
+        if let Some(times) =
+            times.as_ref().filter(|times| times.is_empty() || ![1, kinds.len()].contains(&times.len()))
+        {
             let count = times.len();
             return Err(match kinds.is_empty() {
-                _ if count == 0 => format!("{name} is an empty list: write a time, or one for each of `kinds`"),
+                _ if count == 0 => {
+                    format!("{name} is an empty list: write a time, or one for each of `kinds`")
+                }
                 true => format!("{name} has {count} times: name their kinds in `kinds`"),
                 false => format!("{name} has {count} times for {} kinds", kinds.len()),
             });
@@ -171,12 +184,17 @@ fn rejects(settings: &Settings) -> Result<Vec<Reject>, String> {
     let pairs = pairs(settings, "rejects")?;
     let shares = settings.optional("shares", Settings::numbers)?.unwrap_or_default();
     if pairs.len() != shares.len() {
-        return Err(format!("the setting rejects has {} pairs, and shares {} numbers", pairs.len(), shares.len()));
+        return Err(format!(
+            "the setting rejects has {} pairs, and shares {} numbers",
+            pairs.len(),
+            shares.len()
+        ));
     }
     if let Some(share) = shares.iter().find(|share| !(0.0..=1.0).contains(*share)) {
         return Err(format!("a share is a number from 0 to 1, not {share}"));
     }
-    let rejects: Vec<Reject> = pairs.into_iter().zip(shares).map(|(kinds, share)| Reject { kinds, share }).collect();
+    let rejects: Vec<Reject> =
+        pairs.into_iter().zip(shares).map(|(kinds, share)| Reject { kinds, share }).collect();
     for Reject { kinds: [kind, _], .. } in &rejects {
         let all: f64 = rejects.iter().filter(|other| other.kinds[0] == *kind).map(|other| other.share).sum();
         if all > 1.0 + ROUNDED {

@@ -71,9 +71,9 @@ impl Distribution {
         if let Some(missing) = needed.iter().find(|name| !settings.has(name)) {
             return Err(format!("a {word} time needs the setting {missing}"));
         }
-        let foreign = TIMES.iter().find(|name| {
-            settings.has(name) && !needed.contains(name) && !possible.contains(name)
-        });
+        let foreign = TIMES
+            .iter()
+            .find(|name| settings.has(name) && !needed.contains(name) && !possible.contains(name));
         match foreign {
             Some(foreign) => Err(format!("a {word} time has no {foreign}")),
             None => Ok(word),
@@ -120,7 +120,9 @@ impl Distribution {
     pub fn is_drawn(&self) -> bool {
         match self {
             Self::Fixed(_) => false,
-            Self::Uniform { shortest, longest } | Self::Triangular { shortest, longest, .. } => shortest < longest,
+            Self::Uniform { shortest, longest } | Self::Triangular { shortest, longest, .. } => {
+                shortest < longest
+            }
             Self::Normal { within, .. } | Self::Exponential { within, .. } => within[0] < within[1],
         }
     }
