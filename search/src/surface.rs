@@ -153,15 +153,11 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
             let told = |kind: usize| {
                 zone.sees[kind].map_or(sight::OPEN, |input| model.inputs[input].var.load(state))
             };
-            // Which of several kinds is there nobody has seen.
-            let is_unknown = |kind: usize| {
-                told(kind) == sight::FORGOTTEN || told(kind) == sight::OPEN && zone.found.len() > 1
-            };
             for kind in (0..zone.found.len()).filter(|kind| told(*kind) != sight::NOT_SEEN) {
                 let at = Landing::Zone { machine, zone: number };
                 meet(
                     gap(zone.found[kind], kind),
-                    Found { kind, at, is_forgotten: !stands || is_unknown(kind) },
+                    Found { kind, at, is_forgotten: !stands || told(kind) == sight::FORGOTTEN },
                 );
             }
         }
