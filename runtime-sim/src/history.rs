@@ -150,7 +150,7 @@ impl History {
             let has_changed = word.look(seen);
             self.changes += usize::from(has_changed);
             if has_changed && *is_analogue {
-                word.rested_until(self.happened);
+                self.changes += usize::from(word.rested_until(self.happened));
             }
         }
         self.happened = seen.scan;
@@ -179,7 +179,10 @@ impl History {
 
     /// The controllers have stepped a machine: its state, and the time in it.
     pub(crate) fn time(&mut self, machine: usize, stay: Stay, ms: u64) {
-        self.machines[machine].times.note(stay, ms, self.scan_ms);
+        if self.words_until.is_none() {
+            let is_new = self.machines[machine].times.note(stay, ms, self.scan_ms);
+            self.changes += usize::from(is_new);
+        }
     }
 
     pub(crate) fn finish(mut self, plant: &Plant) -> Self {
@@ -203,14 +206,17 @@ impl Word {
         has_changed
     }
 
-    /// Before its last change it had the same value up to this scan: what is joined by a line rests until then.
-    fn rested_until(&mut self, scan: u64) {
+    /// Before its last change it had the same value up to this scan: what is joined by a line rests until then. Whether
+    /// that had to be noted.
+    fn rested_until(&mut self, scan: u64) -> bool {
         let Some(before) = self.changes.len().checked_sub(2).map(|number| self.changes[number]) else {
-            return;
+            return false;
         };
-        if before.0 < scan {
+        let is_later = before.0 < scan;
+        if is_later {
             self.changes.insert(self.changes.len() - 1, (scan, before.1));
         }
+        is_later
     }
 
     /// What it is at the end of a scan; none before it is known.

@@ -255,9 +255,7 @@ impl Scan<'_> {
     /// Whether the items at a place are those of an order.
     fn has_all_of(&mut self, order: usize, place: &Place) -> bool {
         let stray = place.stray.map_or(0, |stray| stray.load(self.bytes));
-        if stray == event::others(self.model) {
-            return self.choices.take(2) == 1;
-        }
+        let is_unknown = stray == event::others(self.model);
         let count = |kind: usize| {
             if place.by_kind {
                 return place.items[kind].load(self.bytes) as u32;
@@ -265,8 +263,11 @@ impl Scan<'_> {
             let all = place.items.iter().map(|item| item.load(self.bytes)).chain([stray]);
             all.filter(|item| *item == kind as i32 + 1).count() as u32
         };
-        let parts = self.model.orders[order].parts.iter().enumerate();
-        parts.into_iter().all(|(kind, wanted)| count(kind) == *wanted)
+        let mut parts = self.model.orders[order].parts.iter().enumerate();
+        if is_unknown {
+            return parts.all(|(kind, wanted)| count(kind) <= *wanted) && self.choices.take(2) == 1;
+        }
+        parts.all(|(kind, wanted)| count(kind) == *wanted)
     }
 
     fn take_away(&mut self, place: &Place) {

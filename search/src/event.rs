@@ -159,7 +159,7 @@ fn endings(
             add(Ending::WithItem);
             add(Ending::WithItemUnseen);
         }
-        let is_there = |found: Option<surface::Found>| found.is_some_and(|found| !found.is_forgotten);
+        let is_there = |found: Option<surface::Found>| found.is_some_and(|found| !found.may_be_gone);
         if arm.holds.load(state) == 0
             && (model.faults == Faults::All || !is_there(found_at_goal(model, values, state, arm)))
         {
@@ -196,7 +196,7 @@ pub(crate) fn is_fault(model: &Model, values: &Values, state: &[u8], event: &Eve
             is_reached(values, state, plant, &head.commands[head.command.load(state) as usize])
         }
         (What::Ends(Ending::InVain), _, Some(arm)) => {
-            found_at_goal(model, values, state, arm).is_some_and(|found| !found.is_forgotten)
+            found_at_goal(model, values, state, arm).is_some_and(|found| !found.may_be_gone)
         }
         _ => false,
     }
@@ -250,7 +250,7 @@ fn takes(model: &Model, values: &Values, state: &[u8], plant: &Machine, arm: &Ar
     }
 }
 
-/// What the gripper may take as the arm sets out from it.
+/// What the gripper may take where the motion under way has begun: for the search the tool is there until it has ended.
 fn takes_at_start(
     model: &Model,
     values: &Values,

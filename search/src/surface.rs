@@ -29,6 +29,8 @@ pub struct Found {
     pub at: Landing,
     /// Whether it lies there is not known.
     pub is_forgotten: bool,
+    /// It may have gone, or may not have come.
+    pub may_be_gone: bool,
 }
 
 /// The origin of a place, in the state; of one that is carried, at the stop where its vehicle is or was.
@@ -140,13 +142,13 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
                 let Some(offset) = place.slots.get(slot).filter(|_| held > 0) else { continue };
                 let at = [0, 1, 2].map(|axis| origin[axis] + offset[axis]);
                 let lies = Landing::Slot { machine, place: number, slot };
-                meet(gap(at, kind), Found { kind, at: lies, is_forgotten: false });
+                meet(gap(at, kind), Found { kind, at: lies, is_forgotten: false, may_be_gone: false });
             }
         }
         let Some(lane) = &plant.lane else { continue };
-        let stands = lane.motion.load(state) == motion::STANDS || model.stands(state, machine);
-        // The answer may be late.
-        if !stands && lane.motion.load(state) != motion::STOPS {
+        let moves = lane.motion.load(state) != motion::STANDS;
+        // It may stand before it has answered, and does while its machine is stopped.
+        if moves && lane.motion.load(state) != motion::STOPS && !model.stands(state, machine) {
             continue;
         }
         for (number, zone) in lane.zones.iter().enumerate() {
@@ -155,26 +157,26 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
             };
             for kind in (0..zone.found.len()).filter(|kind| told(*kind) != sight::NOT_SEEN) {
                 let at = Landing::Zone { machine, zone: number };
-                meet(
-                    gap(zone.found[kind], kind),
-                    Found { kind, at, is_forgotten: !stands || told(kind) == sight::FORGOTTEN },
-                );
+                let is_forgotten = told(kind) == sight::FORGOTTEN;
+                let stays = zone.sees[kind].is_none_or(|input| model.inputs[input].stays.is_some());
+                let may_be_gone = is_forgotten || moves || !stays;
+                meet(gap(zone.found[kind], kind), Found { kind, at, is_forgotten, may_be_gone });
             }
         }
     }
     if let Some((_, found)) = nearest {
         return Some(found);
     }
-    carried(model, values, state, tool)
+    hidden(model, values, state, tool)
 }
 
-/// An item on a place that is carried, where the search knows of none: it may be where no place is known. Of which kind it is, is
-/// known if there is one alone.
-fn carried(model: &Model, values: &Values, state: &[u8], tool: Point) -> Option<Found> {
+/// An item on a place that is not known: it may be where no place is known. Of which kind it is, is known if there is one
+/// alone.
+fn hidden(model: &Model, values: &Values, state: &[u8], tool: Point) -> Option<Found> {
     let may_be = model.has_hidden_places
         && model.grasps.len() == 1
         && landing(model, values, state, tool, 0) == Landing::Elsewhere;
-    may_be.then_some(Found { kind: 0, at: Landing::Elsewhere, is_forgotten: true })
+    may_be.then_some(Found { kind: 0, at: Landing::Elsewhere, is_forgotten: true, may_be_gone: true })
 }
 
 /// An empty slot, of a machine that stands, at which an item of some kind would be gripped with the tool here.

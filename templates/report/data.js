@@ -66,6 +66,8 @@ const Data = (() => {
     return { number, name, machine, group, names, form: names ? 'names' : changesBetween ? 'continuous' : shape };
   });
 
+  /* Times in states are known until then. */
+  const timesUntil = raw.words_until_s === null ? endMs : raw.words_until_s * 1000;
   const wordsUntil = Math.min(...[raw.words_until_s, raw.signals_until_s].map((s) => (s === null ? endMs : s * 1000)));
   /* The end of what is known of a signal. */
   const knownUntil = (signal) => (signal.group === 'line' ? endMs : wordsUntil);
@@ -167,7 +169,7 @@ const Data = (() => {
 
   return {
     raw, scanMs, endMs, decimals, COUNTED, KINDS, stays, again, machines, signals, results: raw.results,
-    changes, indexAt, valueAt, valueText, textAt, knownUntil, elapsedAt, stayAt, stateName, eventTimes,
+    changes, indexAt, valueAt, valueText, textAt, knownUntil, timesUntil, elapsedAt, stayAt, stateName, eventTimes,
   };
 })();
 

@@ -49,7 +49,7 @@ const Figures = (() => {
   function limit() {
     const { machines, from_s, to_s } = raw.limit;
     const box = byId('limit');
-    if (!machines.length) {
+    if (!machines.length && !hasStood()) {
       box.append(element('p', 'muted', 'Nothing happened in this run.'));
       return;
     }
@@ -60,10 +60,10 @@ const Figures = (() => {
     const until = raw.words_until_s === null ? '' : ` before ${clock(raw.words_until_s * 1000)}`;
     const goal = (raw.made.length ? 'the last order' : raw.collected.length ? 'the last item that was collected' : 'the last action of a machine') + until;
     if (hasStood()) {
-      box.append(element('p', stands > first.s ? 'lead' : '', 'In ', element('strong', '', percent(stands, whole)),
+      box.append(element('p', !first || stands > first.s ? 'lead' : '', 'In ', element('strong', '', percent(stands, whole)),
         ` of the path to ${goal} the line stands still (${stands.toFixed(1)} of ${whole.toFixed(1)} s): before a start, without run_permit, in a fault or without power. This is the time of no machine.`));
     }
-    box.append(element('p', 'lead', element('strong', '', name(first)),
+    if (first) box.append(element('p', 'lead', element('strong', '', name(first)),
       ` limits this run: ${percent(first.s, whole)} of the path to ${goal} is its own time (${first.s.toFixed(1)} of ${whole.toFixed(1)} s), most of it in ${states(first)}.`));
     if (second) {
       box.append(element('p', '', 'Next: ', element('strong', '', name(second)),

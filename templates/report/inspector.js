@@ -56,7 +56,7 @@ const Inspector = (() => {
   /* The place of a vehicle or of a tool, by its motion: as its controller has it in the present scan. */
   function measuredText({ number, measured }, signal, ms) {
     const axis = measured ? signal.number - measured.signal : -1;
-    if (axis < 0 || axis > 2 || !Data.changes(signal.number).at.length || ms > Motion.drawnUntil) return null;
+    if (axis < 0 || axis > 2 || ms > Motion.drawnUntil) return null;
     const latched = (Math.floor(ms / Data.scanMs + 1e-6) - measured.late) * Data.scanMs;
     if (latched < 0) return null;
     const place = measured.what === 'tool' ? Motion.framesAt(number, latched).slice(-1)[0].slice(9) : Motion.positionAt(number, latched);
@@ -70,8 +70,9 @@ const Inspector = (() => {
       const state = machine.automaton.states[stay.state];
       const list = transitions(machine, stay);
       const time = element('span', 'time');
-      const next = stay.nextMs === null ? 'until the end' :
-        `then ${Data.stateName(made.machine, stay.nextState)} at ${clock(stay.nextMs)}`;
+      const known = stay.nextMs === null ? 'until the end' :
+        `then ${Data.stateName(made.machine, stay.nextState) || 'not shown'} at ${clock(stay.nextMs)}`;
+      const next = state ? known : 'not shown from here on';
       made.state.replaceChildren(
         element('div', 'now', element('strong', '', state ? state.name : ''), badge(stay.counted), time),
         ...(state && state.doc ? [element('p', '', state.doc)] : []),
@@ -79,7 +80,8 @@ const Inspector = (() => {
         ...(list.length ? [element('h4', '', 'It waits for'), element('ul', 'transitions', ...list)] : []));
       made.time = time;
     }
-    made.time.textContent = stay.counted === 'unknown' ? '' : `${seconds(Data.elapsedAt(made.machine, ms) / 1000)} s`;
+    const isKnown = stay.counted !== 'unknown' && ms <= Data.timesUntil;
+    made.time.textContent = !isKnown ? '' : `${seconds(Data.elapsedAt(made.machine, ms) / 1000)} s`;
     for (const { element: details, rows } of made.groups) {
       if (details.open) rows.forEach(({ signal, cell }) => {
         const text = measuredText(machine, signal, ms) || Data.textAt(signal, ms);
@@ -93,7 +95,7 @@ const Inspector = (() => {
     const kind = element('span', 'muted');
     const head = element('div', 'head', element('h3', '', item.name), kind);
     const place = element('p', '');
-    const path = element('ol', 'way', ...Tables.stations(item).map(({ text, ms }) => {
+    const path = element('ol', 'path', ...Tables.stations(item).map(({ text, ms }) => {
       const jump = element('button', 'plain', clock(ms));
       jump.addEventListener('click', () => Player.seek(ms));
       return element('li', '', jump, ' ', text);

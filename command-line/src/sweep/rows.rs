@@ -182,8 +182,9 @@ impl<'a> Rows<'a> {
     }
 
     fn put(&mut self, row: &Row) {
+        // Layouts without orders have no figure either, and nothing is cut of them.
         let cut_whole = row.finished_runs - row.measured_runs;
-        if self.design.warm_up.is_some() && cut_whole > 0 {
+        if cut_whole > 0 && row.cut_orders.is_some_and(|cut| cut > 0.0) {
             self.cut_whole.0 += cut_whole;
             self.cut_whole.1 += 1;
         }

@@ -107,8 +107,7 @@ fn data(project: &Project, sources: &Sources, line: &Line, recorded: &Recorded, 
     let end = history.words_until.unwrap_or(report.scans).min(report.scans);
     let acts = acts::acts(history, &signals, end);
     let standstills = Standstills::new(history, &signals, end);
-    let path =
-        limit::Run { line, events: &history.events, acts: &acts, standstills: &standstills, end }.path();
+    let path = limit::Run { line, events: &history.events, acts: &acts, end }.path();
     let types: Vec<usize> = system.instances.iter().map(|instance| instance.automaton.0).collect();
     let names = item::Names::new(line).all();
     let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
@@ -143,7 +142,6 @@ fn data(project: &Project, sources: &Sources, line: &Line, recorded: &Recorded, 
         "limit": limit::limit_json(line, &path, &standstills),
         "left_out": long.left_out,
         "drawn_until_s": long.drawn_until_s,
-        "states_until_s": long.states_until_s,
         "signals_until_s": long.signals_until_s,
         "lives": long.drawn_until_s.map(|_| paths::lives(&recorded.paths)),
     });

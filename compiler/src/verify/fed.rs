@@ -53,7 +53,8 @@ impl Fed {
         self.0.contains(&(machine, part))
     }
 
-    /// Whether it is known what lies at a place: at none that is carried, and at one that is fed only what orders ask of.
+    /// Whether a place is searched: none that is carried is, and one that is fed only if orders are made there. What lies at
+    /// such a one is not known either.
     pub fn is_known(&self, line: &Line, number: usize, part: usize) -> bool {
         let machine = &line.machines[number];
         let Primitive::Place(place) = &machine.parts[part].primitive else { return false };

@@ -206,7 +206,8 @@ pub fn plant(
                     machine.parts.iter().enumerate().filter_map(|(of, other)| match &other.primitive {
                         Primitive::Zone(field) if field.lane == part => {
                             let stays = (!fed.has(number, part)).then_some(number);
-                            Some(zone(line, (number, of, stays), lane, field, memory, &mut changing.inputs))
+                            let seen = Seen { machine: number, field: of, stays };
+                            Some(zone(line, seen, lane, field, memory, &mut changing.inputs))
                         }
                         _ => None,
                     });
@@ -317,7 +318,7 @@ pub fn has_hidden_places(line: &Line, number: usize, fed: &Fed) -> bool {
     places.any(|(part, _)| !fed.is_known(line, number, part))
 }
 
-/// What lies on a cylinder, a positioner or a vehicle on a track is nowhere to be found.
+/// Whether a place is on a cylinder, a positioner or a vehicle on a track.
 pub(super) fn is_carried(machine: &Machine, place: &runtime_sim::part::place::Place) -> bool {
     machine.strokes_under(place).is_some() || machine.is_on_track(place)
 }
@@ -383,10 +384,18 @@ fn field_over(machine: &Machine, part: usize) -> Option<usize> {
     is_over.then_some(field.lane)
 }
 
-/// None for a field that is not over the lane. `stays`: the machine, if nothing comes while its lane stands.
+/// A field as a part of its machine.
+struct Seen {
+    machine: usize,
+    field: usize,
+    /// The machine, if items neither come nor go while its lane stands.
+    stays: Option<usize>,
+}
+
+/// None for a field that is not over the lane.
 fn zone(
     line: &Line,
-    (number, part, stays): (usize, usize, Option<usize>),
+    Seen { machine: number, field: part, stays }: Seen,
     lane: &Conveyor,
     field: &Field,
     memory: &mut Memory,

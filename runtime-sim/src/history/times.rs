@@ -16,8 +16,8 @@ pub struct Times {
 const MOST_MS: u64 = i32::MAX as u64;
 
 impl Times {
-    /// What holds at the end of a scan in which the controllers were stepped.
-    pub(super) fn note(&mut self, stay: Stay, ms: u64, scan_ms: u64) {
+    /// What holds at the end of a scan in which the controllers were stepped. Whether it is more than that time has passed.
+    pub(super) fn note(&mut self, stay: Stay, ms: u64, scan_ms: u64) -> bool {
         let grows = |counted: Counted| if counted == Counted::Stopped { 0 } else { scan_ms };
         let expected = match self.last {
             Some((last, ms)) if last.state == stay.state => {
@@ -26,10 +26,12 @@ impl Times {
             }
             _ => 0,
         };
-        if ms != expected {
+        let is_new = ms != expected;
+        if is_new {
             self.set.push((stay.scan, ms));
         }
         self.last = Some((stay, ms));
+        is_new
     }
 }
 
@@ -40,7 +42,9 @@ mod tests {
     #[test]
     fn only_times_that_have_not_just_grown_are_noted() {
         let mut times = Times::default();
-        let mut note = |scan, state, counted, ms| times.note(Stay { scan, state, counted }, ms, 10);
+        let mut note = |scan, state, counted, ms| {
+            times.note(Stay { scan, state, counted }, ms, 10);
+        };
         note(0, 0, Counted::Stopped, 0);
         note(2, 1, Counted::Working, 0);
         note(5, 1, Counted::Working, 30);

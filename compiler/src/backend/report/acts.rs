@@ -1,6 +1,7 @@
 //! When each machine did something: what a step of it leaves behind.
 
 use super::signals::Signal;
+use super::standstills::Standstills;
 use crate::ir::Group;
 use runtime_sim::history::{History, MachineHistory};
 use runtime_sim::io_trace::Source;
@@ -22,6 +23,8 @@ pub struct Acts {
     pub acted: Vec<u64>,
     /// Of each word of its inputs when it changed.
     pub inputs: Vec<Vec<u64>>,
+    /// When it was stopped, by itself or with the line.
+    pub stopped: Standstills,
 }
 
 /// Of all machines, up to this scan.
@@ -50,12 +53,11 @@ pub fn acts(history: &History, signals: &[Signal], end: u64) -> Vec<Acts> {
 }
 
 fn stays(machine: &MachineHistory, end: u64) -> Acts {
-    let mut acts = Acts::default();
+    let mut acts = Acts { stopped: Standstills::of_machine(machine, end), ..Acts::default() };
     let mut again = machine.entered_again().peekable();
     for (number, stay) in machine.stays.iter().enumerate().filter(|(_, stay)| stay.scan < end) {
-        let is_same = |last: &&mut Stay| last.state == stay.state;
-        // If it is, what it is counted as has changed alone.
-        if acts.stays.last_mut().filter(is_same).is_none() {
+        // What it is counted as may have changed alone.
+        if acts.stays.last().is_none_or(|last| last.state != stay.state) {
             acts.enter(stay.scan, end, stay.state);
         }
         let next = machine.stays.get(number + 1).map_or(end, |next| next.scan.min(end));

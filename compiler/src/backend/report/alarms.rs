@@ -50,6 +50,9 @@ pub fn alarms(line: &Line, recorded: &Recorded, signals: &[Signal], results: &Va
     }
     for (machine, described) in line.machines.iter().enumerate() {
         for alarm in &described.monitor.alarms {
+            if is_active(results, &described.name, alarm.code) {
+                continue;
+            }
             let active = word(Source::Trace(alarm.word)).map(|word| word.changes.as_slice());
             if let Some((scan, 0.0)) = active.filter(|changes| changes.len() > 1).and_then(|all| all.last()) {
                 alarms.push((*scan, machine as i64, format!("alarm {} is not active any more", alarm.code)));
@@ -62,6 +65,14 @@ pub fn alarms(line: &Line, recorded: &Recorded, signals: &[Signal], results: &Va
     let mut all: Vec<(f64, i64, String)> = alarms.chain(of_controllers).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| (a.1, &a.2).cmp(&(b.1, &b.2))));
     all.into_iter().map(|(time, machine, text)| json!([time, machine, text])).collect()
+}
+
+/// Whether an alarm is active at the end, by the table of alarms.
+fn is_active(results: &Value, robot: &str, code: i32) -> bool {
+    let mut alarms = results["alarms"].as_array().into_iter().flatten();
+    alarms.any(|alarm| {
+        alarm["robot"] == robot && alarm["code"] == code.unsigned_abs() && alarm["active"] == true
+    })
 }
 
 /// The faults of the controllers, and when they were cleared. The one that ended the run is its reason.

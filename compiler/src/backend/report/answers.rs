@@ -18,15 +18,16 @@ pub fn errors(head: &Head) -> Vec<(u64, i32)> {
     let mut errors = Vec::new();
     for scan in scans {
         let before = scan.checked_sub(1);
+        let sent = head.cmd.changes.partition_point(|(sent, _)| *sent < scan);
         let asked = before.and_then(|before| head.cmd.at(before)).unwrap_or(0.0);
         let error = head.error.at(scan).unwrap_or(0.0);
         let changed = |word: &Word| before.and_then(|before| word.at(before)) != word.at(scan);
-        let is_answer = changed(head.ack) && head.ack.at(scan) == Some(asked) && told != Some(asked);
+        let is_answer = changed(head.ack) && head.ack.at(scan) == Some(asked) && told != Some(sent);
         if error != 0.0 && (is_answer || changed(head.error)) {
             errors.push((scan, error as i32));
         }
         if is_answer || error != 0.0 && changed(head.error) {
-            told = Some(asked);
+            told = Some(sent);
         }
     }
     errors

@@ -41,7 +41,6 @@ pub struct Run<'a> {
     pub line: &'a Line,
     pub events: &'a [Event],
     pub acts: &'a [Acts],
-    pub standstills: &'a Standstills,
     /// The scan up to which it is known.
     pub end: u64,
 }
@@ -132,7 +131,7 @@ impl Run<'_> {
         let state = self.line.machines[machine].states.get(stay.state)?;
         let own = &self.acts[machine];
         let scan_ms = u64::from(self.line.scan_ms);
-        let stood = self.standstills.scans(stay.begin, scan);
+        let stood = own.stopped.scans(stay.begin, scan);
         let passed = (scan - stay.begin).saturating_sub(stood) * scan_ms;
         // It was not yet one scan before.
         let is_over =

@@ -30,9 +30,7 @@ pub struct Long {
     pub left_out: Vec<String>,
     /// The time from which on nothing is drawn on the plan; none: all is.
     pub drawn_until_s: Option<f64>,
-    /// The time from which on states are not shown; none: all are.
-    pub states_until_s: Option<f64>,
-    /// The same of signals, but for those of the line.
+    /// The time from which on signals are not shown, but for those of the line; none: all are.
     pub signals_until_s: Option<f64>,
 }
 
@@ -51,8 +49,7 @@ impl Long {
         let states_until = states_until(history, path, room / STATES);
         parts.extend(states(history, path, states_until));
         let seconds = |scan: u64| (scan * u64::from(line.scan_ms)) as f64 / 1000.0;
-        let states_until_s = states_until.map(seconds);
-        if let Some(until) = states_until_s {
+        if let Some(until) = states_until.map(seconds) {
             left_out.push(format!(
                 "States, and the path that limits the run, are shown until {until:.0} s: the later ones are too much for one page. Figures and tables are those of the whole run."
             ));
@@ -100,7 +97,7 @@ impl Long {
         }
         parts.append(&mut drawn);
         parts.push(("changes", changes));
-        Self { parts, left_out, drawn_until_s, states_until_s, signals_until_s }
+        Self { parts, left_out, drawn_until_s, signals_until_s }
     }
 }
 
