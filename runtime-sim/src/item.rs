@@ -195,7 +195,7 @@ impl Items {
     pub fn deck(&self, under: usize) -> Option<Stack> {
         let deck = self.dimensions(under).deck?;
         let [x, y] = deck.size.map(|length| [-length / 2.0, length / 2.0]);
-        let floor = Floor { middle: Point::new(0.0, 0.0, deck.height), x, y };
+        let floor = Floor { middle: Point::new(0.0, 0.0, deck.height), x, y, yaw: 0.0 };
         let loads = self.loads_of(under).iter().filter_map(|load| {
             let Carrier::On { offset, .. } = self[*load].carrier else { return None };
             Some((*load, Block::new(self.dimensions(*load).size, offset, self.turn(*load))))

@@ -192,14 +192,32 @@ pub mod phase {
     pub const GONE: i32 = 4;
 }
 
+/// A rectangle on which items lie, from the origin of its place.
+#[derive(Clone, Copy, Debug)]
+pub struct Floor {
+    pub middle: Point,
+    /// Extent from its middle along its own axes.
+    pub x: [f64; 2],
+    pub y: [f64; 2],
+    /// Its x axis in the axes of the world: the cosine and the sine of its direction.
+    pub ahead: [f64; 2],
+}
+
+impl Floor {
+    /// Whether a point, from the origin of its place, is over it, or no farther beside any of its sides than this.
+    pub fn is_near(&self, [x, y]: [f64; 2], margin: f64) -> bool {
+        let ([cos, sin], [x, y]) = (self.ahead, [x - self.middle[0], y - self.middle[1]]);
+        let within = |at: f64, [low, high]: [f64; 2]| low - margin <= at && at <= high + margin;
+        within(cos * x + sin * y, self.x) && within(cos * y - sin * x, self.y)
+    }
+}
+
 /// Where items lie.
 #[derive(Clone, Debug)]
 pub struct Place {
     /// Where it stands, if the vehicle of the machine does not carry it.
     pub stands: Option<Point>,
-    pub floor: Point,
-    pub floor_x: [f64; 2],
-    pub floor_y: [f64; 2],
+    pub floor: Floor,
     /// From the origin.
     pub slots: Vec<Point>,
     /// Without: one more than the kind of the item at each slot, else 0. With: number of items of each kind.

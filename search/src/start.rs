@@ -38,8 +38,7 @@ fn vehicles_at(model: &Model, [x, y, _]: Point) -> u64 {
         carried.into_iter().any(|place| {
             route.stops.iter().any(|stop| {
                 let (dx, dy) = (x - stop[0], y - stop[1]);
-                let within = |at: f64, [low, high]: [f64; 2]| low - margin <= at && at <= high + margin;
-                within(dx - place.floor[0], place.floor_x) && within(dy - place.floor[1], place.floor_y)
+                place.floor.is_near([dx, dy], margin)
                     || place
                         .slots
                         .iter()

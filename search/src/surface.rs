@@ -43,11 +43,8 @@ pub fn origin(model: &Model, values: &Values, state: &[u8], machine: usize, plac
 }
 
 pub fn is_over(place: &Place, origin: Point, point: Point) -> bool {
-    let within = |axis: usize, [low, high]: [f64; 2]| {
-        let at = point[axis] - origin[axis] - place.floor[axis];
-        low <= at && at <= high
-    };
-    within(0, place.floor_x) && within(1, place.floor_y) && point[2] >= origin[2] + place.floor[2] - SINK
+    let [x, y] = [0, 1].map(|axis| point[axis] - origin[axis]);
+    place.floor.is_near([x, y], 0.0) && point[2] >= origin[2] + place.floor.middle[2] - SINK
 }
 
 pub fn is_in(zone: &Zone, point: Point) -> bool {
@@ -86,7 +83,7 @@ pub fn fall(model: &Model, values: &Values, state: &[u8], tool: Point, kind: usi
     for (machine, plant) in model.machines.iter().enumerate() {
         for (number, place) in plant.places.iter().enumerate() {
             let origin = origin(model, values, state, machine, place);
-            let height = origin[2] + place.floor[2];
+            let height = origin[2] + place.floor.middle[2];
             if height <= highest.0
                 || !is_over(place, origin, under)
                 || !is_there(model, state, machine, number)
@@ -199,7 +196,7 @@ pub fn empty_slot(
 pub fn low_in_slot(model: &Model, values: &Values, state: &[u8], tool: Point) -> Option<usize> {
     let tallest = model.heights.iter().copied().fold(0.0, f64::max);
     places(model, values, state).find_map(|(machine, place, origin)| {
-        let is_low = tool[2] <= origin[2] + place.floor[2] + tallest + 0.001;
+        let is_low = tool[2] <= origin[2] + place.floor.middle[2] + tallest + 0.001;
         let has_others = place.slots.len() > 1;
         (has_others && is_low && is_over(place, origin, tool) && slot_at(place, origin, tool).is_some())
             .then_some(machine)

@@ -67,7 +67,7 @@ const Scene = (() => {
     return [...steps.map((i) => side(i, 1)), ...steps.reverse().map((i) => side(i, -1))];
   }
 
-  const floorOf = (place, [x, y]) => [[0, 0], [1, 0], [1, 1], [0, 1]].map(([i, j]) => [x + place.x[i], y + place.y[j]]);
+  const floorOf = (place, [x, y]) => place.corners.map((corner) => [x + corner[0], y + corner[1]]);
 
   function bounds(points) {
     const box = { low: [Infinity, Infinity], high: [-Infinity, -Infinity] };

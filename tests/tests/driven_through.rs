@@ -50,6 +50,15 @@ device table {
     part light = lamp { at: pose; colour: red; };
     out lit: bool = light.on;
 }
+device bench {
+    part top = place {
+        at: origin * frame(0, 0, 0.8, 0); slots: [point(0, 0, 0)]; by_kind: false; floor: point(0, 0, 0);
+        floor_x: [-1, 1]; floor_y: [-0.1, 0.1];
+    };
+    part light = lamp { at: pose; colour: red; };
+    out lit: bool = light.on;
+}
+automaton Bench on bench { initial -> S { lit := true; } state S { when false -> S {} } }
 automaton Cart on cart { initial state S { when false -> S {} } }
 automaton Tram on tram { initial state S { when false -> S {} } }
 automaton Shuttle on shuttle { initial state S { when false -> S {} } }
@@ -79,6 +88,7 @@ fn a_vehicle_through_a_surface_is_told() {
         // A quarter of a circle that begins beside the track and ends across it.
         ("cart", r#""type": "conv", "pose": [2, -1, 0, 60], "turn": 60"#, "lane `belt`"),
         ("cart", r#""type": "table", "pose": [3, 0.7, 0]"#, "place `top`"),
+        ("cart", r#""type": "bench", "pose": [3, 0.9, 0, 90]"#, "place `top`"),
     ];
     for (vehicle, machine, what) in cases {
         let expected = format!("`hull` of v drives through the {what} of m");
@@ -98,6 +108,7 @@ fn what_is_not_on_the_path_or_has_a_body_is_not_told() {
         ("cart", r#""type": "framed", "pose": [3, -2, 0, 90]"#),
         ("cart", r#""type": "lifted", "pose": [3, -2, 0, 90]"#),
         ("shuttle", r#""type": "table", "pose": [3, 0.81, 0]"#),
+        ("cart", r#""type": "bench", "pose": [3, 0.9, 0]"#),
     ];
     for (vehicle, machine) in cases {
         assert_eq!(told(vehicle, machine, ""), [""; 0], "{machine}");

@@ -182,6 +182,7 @@ fn form_of(form: Form) -> String {
         Form::Number => "number".into(),
         Form::Positive => "number over 0".into(),
         Form::Point => "point".into(),
+        Form::Origin => "point or frame".into(),
         Form::Frame => "frame".into(),
         Form::Axis => "axis".into(),
         Form::Direction => "axis, or z".into(),

@@ -52,6 +52,24 @@ fn what_lies_on_an_item_comes_down_or_up_as_that_changes() {
 }
 
 #[test]
+fn a_place_given_by_a_frame_turns_with_its_machine() {
+    let kinds = [("box", 0.10, SIZE)];
+    let lies = |at: &str, yaw: f64| {
+        let changes =
+            [("at: origin * frame(2.0, 0, 0.15, 0)", at), ("floor_y: [-0.3, 0.3]", "floor_y: [-0.05, 0.05]")];
+        let mut texts = line("chute", &kinds, &["box"], "").replaced(&changes);
+        texts.layout = texts.layout.replace("[0, 0, 0, 0]", &format!("[0, 0, 0, {yaw:?}]"));
+        ends(&texts).1
+    };
+    for yaw in [0.0, 90.0, 37.0, 180.0, -90.0] {
+        assert_eq!(lies("at: origin * frame(2.0, 0, 0.15, 0)", yaw), [Some(150.0)], "{yaw}");
+    }
+    // A point does not turn with it.
+    assert_eq!(lies("at: origin * point(2.0, 0, 0.15)", 0.0), [Some(150.0)]);
+    assert_eq!(lies("at: origin * point(2.0, 0, 0.15)", 90.0), [Some(0.0)]);
+}
+
+#[test]
 fn what_lies_on_a_joined_item_comes_down() {
     let kinds = [("base", 0.10, SIZE), ("cap", 0.06, SIZE), ("lid", 0.06, SIZE)];
     let (reason, heights) = chute(&kinds, &["base", "cap", "lid"], "joins: [cap];");

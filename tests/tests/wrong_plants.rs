@@ -304,7 +304,7 @@ fn floors_that_do_not_turn_with_their_machine() {
                         corners: [pose, pose + point(2, 0, 0)]; closed: false; places: [0, 2]; speed: 1; acceleration: 1; mass: 9;
                     }};
                     part seat = place {{
-                        {place} at: pose; slots: [point(0, 0, 0)]; by_kind: false; floor: point(0, 0, 0);
+                        {place} slots: [point(0, 0, 0)]; by_kind: false; floor: point(0, 0, 0);
                     }};
                     in place: int -1..31 = drive.place;
                 }}
@@ -323,12 +323,15 @@ fn floors_that_do_not_turn_with_their_machine() {
     let square = floor("-0.2, 0.2", "-0.2, 0.2");
     let aside = floor("-0.2, 0.2", "-0.1, 0.3");
     for (place, turned_by) in [
-        (long.clone(), [0, 1, 0, 1, 0]),
-        (square, [0, 0, 0, 1, 0]),
-        (aside, [0, 1, 1, 1, 0]),
-        (format!("on: drive; {long}"), [0, 1, 0, 1, 0]),
-        (format!("on: cart; {long}"), [0, 0, 0, 0, 0]),
-        (format!("toward: point(0, 1, 0); {long}"), [0, 0, 0, 0, 0]),
+        (format!("at: pose; {long}"), [0, 1, 0, 1, 0]),
+        (format!("at: pose; {square}"), [0, 0, 0, 1, 0]),
+        (format!("at: pose; {aside}"), [0, 1, 1, 1, 0]),
+        (format!("at: origin; {long}"), [0, 0, 0, 0, 0]),
+        (format!("at: origin * frame(0, 0, 0, 90); {long}"), [0, 0, 0, 0, 0]),
+        (format!("on: drive; at: pose; {long}"), [0, 1, 0, 1, 0]),
+        (format!("on: drive; at: origin; {long}"), [0, 0, 0, 0, 0]),
+        (format!("on: cart; at: pose; {long}"), [0, 0, 0, 0, 0]),
+        (format!("at: pose; toward: point(0, 1, 0); {long}"), [0, 0, 0, 0, 0]),
     ] {
         let found = [0.0, 90.0, 180.0, 45.0, 360.0].map(|yaw| warned(&place, yaw));
         assert_eq!(found, turned_by, "{place}");

@@ -83,16 +83,21 @@ fn band(centre_line: &CentreLine, width: f64, pieces: usize) -> Vec<Point> {
 
 /// A place whose origin is at this point.
 fn of_place(place: &Place, origin: Point) -> Shape {
-    match place.drawn {
-        Some(size) => Shape::Rectangle { centre: origin, size: (size.x, size.y) },
+    let flat = |point: Point| Point { z: 0.0, ..point };
+    let (centre, [x, y]) = match place.drawn {
+        Some(size) => (Frame::new(origin, place.floor.yaw), [size.x, size.y]),
         None => {
-            let middle = |[low, high]: [f64; 2]| (low + high) / 2.0;
-            let aside = Point::new(middle(place.floor_x), middle(place.floor_y), 0.0);
-            let size = (place.floor_x[1] - place.floor_x[0], place.floor_y[1] - place.floor_y[0]);
-            let floor = Point { z: 0.0, ..place.floor };
-            Shape::Rectangle { centre: origin + floor + aside, size }
+            let (frame, sides) = place.floor.sides();
+            (Frame { position: origin + flat(frame.position), ..frame }, sides)
         }
+    };
+    if centre.yaw == 0.0 {
+        return Shape::Rectangle { centre: centre.position, size: (x, y) };
     }
+    let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
+    Shape::Polygon(
+        corners.map(|(along, across)| centre.point(Point::new(along * x, across * y, 0.0))).to_vec(),
+    )
 }
 
 /// Where the tool of a Cartesian robot can be; the rail of an arm on one, the range of one on two.
@@ -233,6 +238,11 @@ pub fn label(machine: &Machine) -> Point {
     match shape {
         Some(Shape::Rectangle { centre, size: (_, y) }) => {
             Point { z: 0.0, ..centre } + Point::new(0.0, y / 2.0 + 0.12, 0.0)
+        }
+        Some(Shape::Polygon(corners)) => {
+            let top = corners.iter().map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
+            let middle = corners.iter().map(|corner| corner.x).sum::<f64>() / corners.len() as f64;
+            Point::new(middle, top + 0.12, 0.0)
         }
         _ => pose + Point::new(0.0, 0.42, 0.0),
     }

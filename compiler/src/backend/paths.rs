@@ -194,12 +194,18 @@ fn supports(machine: &Machine) -> Vec<(Point, Point)> {
         };
     }
     let of_place = |place: &Place| -> Vec<(Point, Point)> {
-        let half = (place.floor_y[1] - place.floor_y[0]) / 2.0;
-        let aside = Point::new(0.0, (place.floor_y[0] + place.floor_y[1]) / 2.0, 0.0);
-        let middle = |origin: Point| origin + Point { z: 0.0, ..place.floor } + aside;
+        let corners = place.floor.corners().map(|corner| corner.y);
+        let [low, high] = [
+            corners.into_iter().fold(f64::INFINITY, f64::min),
+            corners.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        let middle = Point::new(place.floor.middle.x, (low + high) / 2.0, 0.0);
         let stops = machine.stops();
         let origins = if machine.is_driven(place) { stops } else { std::slice::from_ref(&place.at) };
-        origins.iter().map(|origin| across(middle(*origin), half, place.floor.z)).collect()
+        origins
+            .iter()
+            .map(|origin| across(*origin + middle, (high - low) / 2.0, place.floor.middle.z))
+            .collect()
     };
     machine.places().filter(|place| !machine.is_on_track(place)).flat_map(of_place).collect()
 }

@@ -41,7 +41,7 @@ use serde_json::{Value, json};
 use standstills::Standstills;
 
 /// Of the data and its version.
-pub const FORMAT: &str = "autogen report 2";
+pub const FORMAT: &str = "autogen report 3";
 
 #[derive(Template)]
 #[template(path = "report/report.html", escape = "html")]

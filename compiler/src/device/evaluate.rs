@@ -184,6 +184,7 @@ impl Environment<'_> {
             | (Form::Number, Value::Number(_))
             | (Form::Point, Value::Point(_))
             | (Form::Frame, Value::Frame(_))
+            | (Form::Origin, Value::Point(_) | Value::Frame(_))
             | (Form::Axis | Form::Direction, Value::Axis(_))
             | (Form::Word, Value::Word(_)) => true,
             (Form::Positive | Form::Times, Value::Number(number)) => {
@@ -389,6 +390,7 @@ fn described(form: Form) -> String {
         Form::Positive => "a number over 0".into(),
         Form::Point => "a point".into(),
         Form::Frame => "a frame".into(),
+        Form::Origin => "a point or a frame".into(),
         Form::Axis => "an axis".into(),
         Form::Direction => "an axis: x, y or z".into(),
         Form::Word => "a word".into(),

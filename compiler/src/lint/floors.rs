@@ -6,7 +6,8 @@ use crate::layout::{Layout, Object};
 use runtime_sim::kinematics::facing::Facing;
 use runtime_sim::line::Line;
 use runtime_sim::part::Primitive;
-use runtime_sim::part::place::Place;
+use runtime_sim::part::place::Floor;
+use runtime_sim::value::Value;
 use std::collections::HashMap;
 
 /// Lengths and angles that differ by less are equal, m and degrees.
@@ -21,8 +22,9 @@ pub fn check(layout: &Layout, system: &System, line: &Line) -> Vec<Diagnostic> {
         let turned = object.pose.value.yaw;
         for (part, made) in machine.parts.iter().enumerate() {
             let Primitive::Place(place) = &made.primitive else { continue };
-            let has_floor = place.facing == Facing::Down && !machine.is_on_track(place);
-            if !has_floor || lies_as_turned(place, turned) {
+            let is_at_point = matches!(made.settings.get("at"), Some(Value::Point(_)));
+            let has_floor = place.facing == Facing::Down && !machine.is_on_track(place) && is_at_point;
+            if !has_floor || lies_as_turned(&place.floor, turned) {
                 continue;
             }
             let Some(declared) = system.automaton_of(number).device.place_of(part) else { continue };
@@ -33,24 +35,26 @@ pub fn check(layout: &Layout, system: &System, line: &Line) -> Vec<Diagnostic> {
             let along = |[low, high]: [f64; 2]| format!("{low} to {high} m");
             let extent = format!(
                 "it reaches from {} along the x axis of the world, and from {} along y",
-                along(place.floor_x),
-                along(place.floor_y)
+                along(place.floor.x),
+                along(place.floor.y)
             );
             found.push(
                 Diagnostic::new("W0205", object.pose.span, message)
                     .other(declared, "the place")
                     .note(extent)
                     .note("items beside it fall past it")
-                    .help("make it as long as wide, around its middle; or write a device for this direction that gives its parts from `pose`"),
+                    .help(
+                        "give `at` a frame, which turns slots and floor: `at: origin * frame(X, Y, Z, 0);`",
+                    ),
             );
         }
     }
     found
 }
 
-/// Whether its floor would be the same if it were turned so, in degrees.
-fn lies_as_turned(place: &Place, turned: f64) -> bool {
-    let Place { floor_x: [west, east], floor_y: [south, north], .. } = *place;
+/// Whether a floor is the same as if it were turned so, in degrees.
+fn lies_as_turned(floor: &Floor, turned: f64) -> bool {
+    let Floor { x: [west, east], y: [south, north], .. } = *floor;
     let is_same = |a: f64, b: f64| (a - b).abs() < SAME;
     let is_multiple_of = |angle: f64| is_same(turned / angle, (turned / angle).round());
     let is_even = is_same(-west, east) && is_same(-south, north);

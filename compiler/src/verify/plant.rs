@@ -9,15 +9,18 @@ use super::strokes::{Changing, Of};
 use crate::device::Port;
 use crate::device::panel;
 use autogen_search::plant::{
-    Action, Arm, Asked, Awaits, Desk, Head, Input, Lane, Level, Place, Route, Zone, motion, phase, status,
+    Action, Arm, Asked, Awaits, Desk, Floor, Head, Input, Lane, Level, Place, Route, Zone, motion, phase,
+    status,
 };
 use autogen_search::stroke::position;
 use autogen_search::value::Var;
 use runtime_sim::device::{Direction, PortType, Stop, error};
+use runtime_sim::frame::Frame;
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
 use runtime_sim::part::lane::{self, Lane as Conveyor};
+use runtime_sim::part::place;
 use runtime_sim::part::zone::Zone as Field;
 use runtime_sim::point::Point;
 use runtime_sim::wiring::{Command, Drives, Source, Wiring};
@@ -76,6 +79,11 @@ pub struct Known<'a> {
 
 fn coordinates(p: Point) -> [f64; 3] {
     [p.x, p.y, p.z]
+}
+
+fn floor(floor: &place::Floor) -> Floor {
+    let ahead = Frame::new(Point::default(), floor.yaw).direction(Point::new(1.0, 0.0, 0.0));
+    Floor { middle: coordinates(floor.middle), x: floor.x, y: floor.y, ahead: [ahead.x, ahead.y] }
 }
 
 /// The errors in which a command may end before anything has moved, by the primitive of its part and the name of its
@@ -228,9 +236,7 @@ pub fn plant(
                     .map(|n| memory.number(number, format!("{}.(item)[{n}]", machine.name), most, 0));
                 found.places.push(Place {
                     stands: (!machine.is_driven(place)).then_some(coordinates(place.at)),
-                    floor: coordinates(place.floor),
-                    floor_x: place.floor_x,
-                    floor_y: place.floor_y,
+                    floor: floor(&place.floor),
                     slots: place.slots.iter().map(|slot| coordinates(*slot)).collect(),
                     by_kind: place.by_kind,
                     items: items.collect(),

@@ -295,10 +295,9 @@ fn plates(primitive: &Primitive) -> Option<Standing> {
             Some(Standing::new((0..count).map(|number| plate(middle(number), length, lane.width)).collect()))
         }
         Primitive::Place(place) if place.on.is_none() && place.facing == Facing::Down => {
-            let [x, y] = [place.floor_x, place.floor_y];
-            let middle = Point::new((x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0, 0.0);
-            let frame = Frame::new(place.at + place.floor + middle, 0.0);
-            Some(Standing::new(vec![plate(frame, x[1] - x[0], y[1] - y[0])]))
+            let (frame, [length, width]) = place.floor.sides();
+            let frame = Frame::new(place.at, 0.0).then(frame);
+            Some(Standing::new(vec![plate(frame, length, width)]))
         }
         _ => None,
     }

@@ -50,8 +50,8 @@ fn on_place(machine: &Machine, place: &Place) -> BoundingBox {
     let origin = if is_driven { Point::default() } else { place.at };
     let farthest = |[low, high]: [f64; 2]| low.abs().max(high.abs());
     let floor = Ball {
-        middle: origin + place.floor,
-        radius: libm::hypot(farthest(place.floor_x), farthest(place.floor_y)),
+        middle: origin + place.floor.middle,
+        radius: libm::hypot(farthest(place.floor.x), farthest(place.floor.y)),
     };
     let slots = place.slots.iter().map(|slot| Ball { middle: origin + *slot, radius: 0.0 });
     let boxes = std::iter::once(floor).chain(slots).map(|ball| match place.on {

@@ -1,8 +1,10 @@
 //! Where items lie: slots on a floor that stands or is carried.
 
+mod floor;
 mod stack;
 
-pub use stack::{Floor, Rest, Stack};
+pub use floor::Floor;
+pub use stack::{Rest, Stack};
 
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, See, Start, Primitive};
@@ -21,14 +23,14 @@ pub const SCHEMA: Schema = Schema::new(
         Setting::new("on", Form::Part(&["route", "track", "cylinder", "positioner"]), "", "what carries it; without it, it is at rest").optional(),
         Setting::new(
             "at",
-            Form::Point,
+            Form::Origin,
             "m",
-            "origin of the offsets: at the first stop of a route, at the inner end of a cylinder, at 0 of a positioner; on a track from the middle of the vehicle, x ahead",
+            "origin of the offsets: at the first stop of a route, at the inner end of a cylinder, at 0 of a positioner; on a track from the middle of the vehicle, x ahead. A frame turns slots and floor: `origin * frame(1, 0, 0.5, 0)` with the machine. With a point they lie along the axes of the world, on a track along the vehicle",
         ),
         Setting::new("slots", Form::Points, "m", "places of the undersides of items, from the origin"),
         Setting::new("by_kind", Form::Truth, "", "each slot is for one kind, in the order of the kinds"),
         Setting::new("floor", Form::Point, "m", "middle of the floor, from the origin"),
-        Setting::new("floor_x", Form::Range, "m", "extent of the floor along the x axis of the world, from its middle; on a track along the vehicle"),
+        Setting::new("floor_x", Form::Range, "m", "extent of the floor along x, from its middle"),
         Setting::new("floor_y", Form::Range, "m", "the same along y"),
         Setting::new(
             "drawn",
@@ -60,11 +62,11 @@ pub struct Place {
     /// What carries it.
     pub on: Option<usize>,
     pub at: Point,
+    /// From there, along the axes of the world or of what carries it.
     pub slots: Vec<Point>,
     pub by_kind: bool,
-    pub floor: Point,
-    pub floor_x: [f64; 2],
-    pub floor_y: [f64; 2],
+    /// The same.
+    pub floor: Floor,
     pub drawn: Option<Point>,
     pub stacks: bool,
     /// Where a tool points that puts an item there.
@@ -82,14 +84,18 @@ impl Described for Place {
         if stacks && facing != Facing::Down {
             return Err("items are not stacked at a place that is filled from the side".into());
         }
+        let at = settings.origin("at")?;
         Ok(Self {
             on: settings.optional("on", Settings::part)?,
-            at: settings.point("at")?,
-            slots: settings.points("slots")?,
+            at: at.position,
+            slots: settings.points("slots")?.into_iter().map(|slot| at.direction(slot)).collect(),
             by_kind: settings.truth("by_kind")?,
-            floor: settings.point("floor")?,
-            floor_x: settings.range("floor_x")?,
-            floor_y: settings.range("floor_y")?,
+            floor: Floor {
+                middle: at.direction(settings.point("floor")?),
+                x: settings.range("floor_x")?,
+                y: settings.range("floor_y")?,
+                yaw: at.yaw,
+            },
             drawn: settings.optional("drawn", Settings::point)?,
             stacks,
             facing,
@@ -129,13 +135,13 @@ impl Bearing {
 
     /// From the origin; where they do not lie on one another, without them.
     fn all(&self, see: &See) -> Stack {
-        let Place { floor, floor_x, floor_y, stacks, .. } = self.place;
+        let Place { floor, stacks, .. } = self.place;
         let borne = see.borne_by(self.part).filter(|_| stacks);
         let items = borne.filter_map(|item| {
             let size = see.items.dimensions(item).size;
             Some((item, Block::new(size, see.items[item].carrier.offset()?, see.items.turn(item))))
         });
-        Stack::new(Floor { middle: floor, x: floor_x, y: floor_y }, items.collect())
+        Stack::new(floor, items.collect())
     }
 
     /// Where an item comes to rest, from the origin.

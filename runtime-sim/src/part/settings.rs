@@ -24,6 +24,8 @@ pub enum Form {
     Positive,
     Point,
     Frame,
+    /// A point, or a frame.
+    Origin,
     /// A level axis, x or y.
     Axis,
     /// x, y or z.
@@ -133,6 +135,14 @@ impl Settings {
         self.read(name, "frame within 1000 km", |value| match value {
             Value::Frame(frame) if frame.is_near() => Some(*frame),
             _ => None,
+        })
+    }
+
+    /// A point stands for a frame that is not turned.
+    pub fn origin(&self, name: &str) -> Result<Frame, String> {
+        self.read(name, "point or frame within 1000 km", |value| match value {
+            Value::Frame(frame) => frame.is_near().then_some(*frame),
+            _ => Some(Frame::new(point(value)?, 0.0)),
         })
     }
 

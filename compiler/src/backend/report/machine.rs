@@ -170,18 +170,17 @@ fn lane(machine: &Machine, part: usize) -> Option<Value> {
     }))
 }
 
-/// A floor on which items lie, but on a vehicle on a track, of which the bodies are drawn alone: its sides along x and y, from the origin of what carries it.
+/// A floor on which items lie, but on a vehicle on a track, of which the bodies are drawn alone: its corners from above, from the origin of what carries it.
 fn place(machine: &Machine, part: usize) -> Option<Value> {
     let Primitive::Place(place) = &machine.parts[part].primitive else { return None };
     if machine.is_on_track(place) {
         return None;
     }
-    let [low_x, high_x] = place.floor_x.map(|x| place.floor.x + x);
-    let [low_y, high_y] = place.floor_y.map(|y| place.floor.y + y);
+    let corners = place.floor.corners().map(|corner| json!([corner.x, corner.y]));
     Some(json!({
         "part": part, "carried": machine.is_driven(place),
-        "on": place.on.filter(|_| machine.strokes_under(place).is_some()), "at": point(place.at), "x": [low_x, high_x],
-        "y": [low_y, high_y], "z": place.floor.z, "orders": machine.is_place_of_orders(part)
+        "on": place.on.filter(|_| machine.strokes_under(place).is_some()), "at": point(place.at), "corners": corners,
+        "z": place.floor.middle.z, "orders": machine.is_place_of_orders(part)
     }))
 }
 

@@ -1,23 +1,8 @@
 //! How the items of a place lie on one another.
 
+use super::floor::Floor;
 use crate::item::block::{Block, SAME_HEIGHT};
 use crate::point::Point;
-
-#[derive(Clone, Copy, Debug)]
-pub struct Floor {
-    pub middle: Point,
-    /// Extent from its middle.
-    pub x: [f64; 2],
-    pub y: [f64; 2],
-}
-
-impl Floor {
-    fn is_under(&self, point: Point) -> bool {
-        let is_within = |at: f64, [low, high]: [f64; 2]| (low..=high).contains(&at);
-        let from_middle = point - self.middle;
-        is_within(from_middle.x, self.x) && is_within(from_middle.y, self.y)
-    }
-}
 
 /// Where an item comes to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]

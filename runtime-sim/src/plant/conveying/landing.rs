@@ -6,7 +6,7 @@ use crate::kinematics::facing::Facing;
 use crate::line::Line;
 use crate::machine::Machine;
 use crate::part::lane::{CentreLine, Lane};
-use crate::part::place::Place;
+use crate::part::place::{Floor, Place};
 use crate::part::{Part, Primitive};
 use crate::point::Point;
 
@@ -29,7 +29,7 @@ enum Surface {
     /// Wherever it stops, and half of its width.
     Lane { lines: Vec<CentreLine>, half: f64 },
     /// Wherever it stops.
-    Floor { frames: Vec<Frame>, middle: Point, extent: [[f64; 2]; 2] },
+    Floor { frames: Vec<Frame>, floor: Floor },
     /// On a vehicle, anywhere on its way: between these ends of it, and so far beside.
     Vehicle { sides: Vec<[Point; 2]>, height: f64, reach: f64 },
 }
@@ -88,10 +88,10 @@ impl Surface {
         let carrier = place.on.map(|part| &machine.parts[part]);
         let frames = match carrier.map(|part| &part.primitive) {
             Some(Primitive::Track(track)) => {
-                let (middle, [x, y]) = (place.at + place.floor, [place.floor_x, place.floor_y]);
-                let corners = x.iter().flat_map(|x| y.map(|y| libm::hypot(middle.x + x, middle.y + y)));
-                let reach = corners.fold(0.0, f64::max);
-                return Self::Vehicle { sides: track.sides(), height: middle.z, reach };
+                let corners = place.floor.corners().map(|corner| place.at + corner);
+                let reach = corners.iter().map(|corner| libm::hypot(corner.x, corner.y)).fold(0.0, f64::max);
+                let height = place.at.z + place.floor.middle.z;
+                return Self::Vehicle { sides: track.sides(), height, reach };
             }
             Some(Primitive::Route(route)) => route.stops.iter().map(|stop| Frame::new(*stop, 0.0)).collect(),
             _ => match carrier.and_then(|part| part.strokes()) {
@@ -102,7 +102,7 @@ impl Surface {
                 None => vec![at],
             },
         };
-        Self::Floor { frames, middle: place.floor, extent: [place.floor_x, place.floor_y] }
+        Self::Floor { frames, floor: place.floor }
     }
 
     /// Of the surface under or over a point, wherever it may be then.
@@ -115,14 +115,9 @@ impl Surface {
                 };
                 lines.iter().filter_map(under).collect()
             }
-            Self::Floor { frames, middle, extent: [x, y] } => {
-                let is_within = |at: f64, [low, high]: [f64; 2]| (low..=high).contains(&at);
-                let under = |frame: &Frame| {
-                    let seen = frame.seen(point) - *middle;
-                    let is_there = is_within(seen.x, *x) && is_within(seen.y, *y);
-                    is_there.then_some(frame.position.z + middle.z)
-                };
-                frames.iter().filter_map(under).collect()
+            Self::Floor { frames, floor } => {
+                let under = frames.iter().filter(|frame| floor.is_under(frame.seen(point)));
+                under.map(|frame| frame.position.z + floor.middle.z).collect()
             }
             Self::Vehicle { sides, height, reach } => {
                 let passes = sides.iter().filter(|side| beside(**side, point) <= *reach);

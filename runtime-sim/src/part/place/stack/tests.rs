@@ -1,6 +1,6 @@
 use super::*;
 
-const FLOOR: Floor = Floor { middle: Point::new(0.0, 0.0, 0.5), x: [-0.3, 0.3], y: [-0.3, 0.3] };
+const FLOOR: Floor = Floor { middle: Point::new(0.0, 0.0, 0.5), x: [-0.3, 0.3], y: [-0.3, 0.3], yaw: 0.0 };
 
 /// Each 0.4 m long, 0.1 m wide and high, by the middles of their undersides.
 fn stack(at: &[(f64, f64)]) -> Stack {
