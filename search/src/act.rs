@@ -277,20 +277,20 @@ impl Scan<'_> {
     fn serve(&mut self, machine: usize, plant: &Machine, desk: &Desk) -> Result<(), Violation> {
         let is_complete = desk.complete.is_some_and(|level| level.is_on(self.bytes));
         let order = desk.order.load(self.bytes) as usize;
-        let place = &plant.places[desk.place];
+        let place = desk.place.map(|place| &plant.places[place]);
         match desk.phase.load(self.bytes) {
             phase::OPEN if self.model.orders[order].made.load(self.bytes) != 0 => {
-                self.take_away(place);
+                place.into_iter().for_each(|place| self.take_away(place));
                 desk.phase.store(self.bytes, phase::TAKEN);
             }
             phase::OPEN if is_complete => {
-                if !place.stacks && !self.has_all_of(order, place) {
+                if place.is_some_and(|place| !place.stacks && !self.has_all_of(order, place)) {
                     return match self.model.watch {
                         Watch::Everything => Err(Violation::WrongItems { machine, order }),
                         Watch::Faults => Ok(()),
                     };
                 }
-                self.take_away(place);
+                place.into_iter().for_each(|place| self.take_away(place));
                 self.model.orders[order].made.store(self.bytes, 1);
                 desk.phase.store(self.bytes, phase::TAKEN);
             }

@@ -116,6 +116,15 @@ impl Model {
         }
     }
 
+    /// An operator resets a fault: the time in each state begins anew, and properties remember nothing.
+    pub(crate) fn reset(&self, state: &mut [u8]) {
+        for instance in &self.instances {
+            let times = instance.times_come.into_iter().chain(instance.elapsed);
+            let remembered = instance.properties.iter().flat_map(|property| property.check.remembered());
+            times.chain(remembered).for_each(|var| var.store(state, 0));
+        }
+    }
+
     /// Whether all orders are made.
     pub fn is_made(&self, state: &[u8]) -> bool {
         self.orders.iter().all(|order| order.made.load(state) != 0)

@@ -260,6 +260,7 @@ impl Expander<'_> {
             forgotten: marks.forgotten,
             forgotten_before: self.forgotten_before,
             looks_back: false,
+            is_reset: false,
             needed: &mut self.needed,
             postponed: (&self.postponed, &self.postponing),
             own: &mut self.own,

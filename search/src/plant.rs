@@ -174,8 +174,8 @@ pub struct Desk {
     /// How many of its orders have had their turn.
     pub next: Var,
     pub complete: Option<Level>,
-    /// Number among the places of the machine.
-    pub place: usize,
+    /// Number among the places of the machine; none if it is not known what lies there.
+    pub place: Option<usize>,
     /// Numbers of the orders that open here, in their order.
     pub orders: Vec<usize>,
 }

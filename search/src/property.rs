@@ -26,6 +26,21 @@ pub enum Check {
     Whenever(Whenever),
 }
 
+impl Check {
+    /// What it knows of the last check.
+    pub fn remembered(&self) -> impl Iterator<Item = Var> {
+        let (first, others): (Option<Var>, &[Var]) = match self {
+            Self::Always(_) => (None, &[]),
+            Self::Keep(keep) => match &keep.memory {
+                Some(memory) => (Some(memory.held), &memory.before),
+                None => (None, &[]),
+            },
+            Self::Whenever(whenever) => (Some(whenever.waits), &[]),
+        };
+        first.into_iter().chain(others.iter().copied())
+    }
+}
+
 /// What a violation does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
@@ -172,7 +187,7 @@ impl Scan<'_> {
 
     fn has_changed(&mut self, instance: usize, property: usize, keep: &Keep) -> bool {
         // In the beginning nothing has been checked.
-        let is_first = self.model.instances[instance].state.load(self.before) == 0;
+        let is_first = self.is_reset || self.model.instances[instance].state.load(self.before) == 0;
         if is_first {
             self.test_first(instance, property, &keep.condition);
             return false;

@@ -48,6 +48,8 @@ pub struct Scan<'a> {
     pub(crate) observed: u64,
     /// The instance that makes its step, as a bit.
     pub(crate) stepping: u64,
+    /// It is the first one since a fault was reset: no property has been checked.
+    pub(crate) is_reset: bool,
     /// This time has not passed in its state in this scan, in scans.
     pub(crate) not_passed: i32,
     /// Violations after which the line continues.

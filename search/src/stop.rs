@@ -1,14 +1,14 @@
 //! What comes behind a stop for an operator.
 
 use crate::model::Model;
-use crate::program::{Cells, bit};
+use crate::program::Cells;
 use crate::scan::Scan;
 use crate::successor::Expander;
 use crate::violation::Violation;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
-/// A line that stops in so many scans one after another does so for ever.
-const MOST_STOPS: usize = 8;
+/// A line that stops in so many scans one after another, in another state each time, is not followed any further.
+const MOST_STOPS: usize = 256;
 
 /// The state in which a scan has ended in a stop. What the operator does may change inputs of devices: they are open.
 #[derive(Clone, PartialEq, Eq, Hash)]
@@ -76,21 +76,26 @@ impl Expander<'_> {
         let order = std::mem::take(&mut self.order);
         let first = self.before.clone();
         let first_forgotten = (self.forgotten, self.forgotten_before);
-        let sensing = self.model.inputs.iter().fold(0, |machines, input| machines | bit(input.machine));
         let mut mark = stopped.mark;
         let (mut found, mut read) = (None, 0);
+        let mut stops: FxHashSet<Vec<u8>> = FxHashSet::default();
         for _ in 0..MOST_STOPS {
             self.model.open_inputs(&mut self.work);
+            self.model.reset(&mut self.work);
+            if !stops.insert(self.work.clone()) {
+                found = Some(Violation::StopsAgain);
+                break;
+            }
             self.before.clone_from(&self.work);
             self.forgotten = mark.forgotten;
             self.forgotten_before = mark.forgotten;
             self.choices.clear();
-            let touched = mark.touched | sensing;
             let mut scan = self.begin();
             scan.written = mark.written;
-            let result = scan.run(&order, touched);
+            scan.is_reset = true;
+            let result = scan.run(&order, u64::MAX);
             scan.ask_starts();
-            mark = scan.mark(touched);
+            mark = scan.mark(u64::MAX);
             read |= scan.observed;
             if let Err(Violation::Fault { instance, fault }) = result
                 && self.choices.is_empty()
@@ -100,10 +105,6 @@ impl Expander<'_> {
             }
             let goes_on = |fault: usize| self.model.sensed[fault] || !self.choices.is_empty();
             if !matches!(result, Err(Violation::Stop { fault }) if !goes_on(fault)) {
-                break;
-            }
-            if self.work == self.before {
-                found = Some(Violation::StopsAgain);
                 break;
             }
         }

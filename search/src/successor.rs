@@ -360,6 +360,7 @@ impl<'a> Expander<'a> {
             forgotten: self.forgotten,
             forgotten_before: self.forgotten_before,
             looks_back: false,
+            is_reset: false,
             needed: &mut self.needed,
             postponed: (&self.postponed, &self.postponing),
             own: &mut self.own,

@@ -67,7 +67,7 @@ fn is_there(model: &Model, state: &[u8], machine: usize, place: usize) -> bool {
     model.machines[machine]
         .desk
         .as_ref()
-        .is_none_or(|desk| desk.place != place || desk.phase.load(state) == phase::OPEN)
+        .is_none_or(|desk| desk.place != Some(place) || desk.phase.load(state) == phase::OPEN)
 }
 
 /// Where an item of a kind lands that a tool loses here.

@@ -247,7 +247,8 @@ pub fn plant(
                 });
             }
             Primitive::Orders(orders) => {
-                let place = (0..orders.place).filter(|part| fed.is_known(line, number, *part)).count();
+                let is_known = |part: &usize| fed.is_known(line, number, *part);
+                let place = is_known(&orders.place).then(|| (0..orders.place).filter(is_known).count());
                 let here = line.scenario.orders.iter().enumerate();
                 let here: Vec<usize> = here
                     .filter(|(_, order)| order.stations.contains(&number))
