@@ -14,7 +14,7 @@ use autogen_search::explore::{Bounds, Covered, End, Outcome, explore};
 use autogen_search::model::Model;
 use autogen_search::plant::Faults;
 use autogen_search::violation::Violation;
-use report::{Report, Shown};
+use report::{First, Report, Shown};
 use std::io::{self, IsTerminal};
 use std::mem::discriminant;
 use std::num::NonZeroUsize;
@@ -88,7 +88,7 @@ pub fn run(options: &VerifyOptions) -> Status {
         complain!("autogen: --orders all takes lines of {MOST_IN_ANY_ORDER} machines at most");
         return Status::WrongCommand;
     }
-    let (found, answers) = search(options, &model, limits);
+    let Found { outcome: found, answers, first } = search(options, &model, limits);
     let mut shown: Vec<Shown> = Vec::new();
     for (violation, execution) in &found.violations {
         let replay = replay::replay(project, &model, execution);
@@ -116,6 +116,7 @@ pub fn run(options: &VerifyOptions) -> Status {
         teller: &teller,
         outcome: &found,
         answers,
+        first,
         shown: &shown,
         skipped: &skipped,
         under_way: verify::under_way::places(&project.system, &project.plant, &asked),
@@ -133,12 +134,16 @@ pub fn run(options: &VerifyOptions) -> Status {
     }
 }
 
-/// Without a number of answers first with one in a scan, which finds most in little time; then with any number. The second result is how many of the last search.
-fn search(
-    options: &VerifyOptions,
-    model: &Model,
-    (time, memory): (Duration, usize),
-) -> (Outcome, Option<usize>) {
+/// What was found, and what the search with one answer in a scan has covered without finding anything, if it came first.
+struct Found {
+    outcome: Outcome,
+    /// In one scan of the last search; none for any number.
+    answers: Option<usize>,
+    first: Option<First>,
+}
+
+/// Without a number of answers first with one in a scan, which finds most in little time; then with any number.
+fn search(options: &VerifyOptions, model: &Model, (time, memory): (Duration, usize)) -> Found {
     let begin = Instant::now();
     let is_shown = !options.input.quiet && options.input.format == Format::Text && io::stderr().is_terminal();
     let mut last = Instant::now();
@@ -167,8 +172,10 @@ fn search(
         jobs: options.jobs.or_else(|| available_parallelism().ok()).map_or(1, NonZeroUsize::get),
     };
     let mut outcome = explore(model, &bounds, &mut watch);
+    let mut first = None;
     if is_first && (outcome.is_proved() || outcome.end == End::TooManyStates && outcome.violations.is_empty())
     {
+        first = Some(First { is_proved: outcome.is_proved(), covered: outcome.covered });
         bounds.answers = None;
         bounds.states = usize::MAX;
         bounds.time = Some(time.saturating_sub(begin.elapsed()));
@@ -187,7 +194,7 @@ fn search(
     if is_shown {
         print::err_styled("\r\x1b[K");
     }
-    (outcome, bounds.answers)
+    Found { outcome, answers: bounds.answers, first }
 }
 
 /// Of time and memory, as `90s`, `10min`, `2GB` or `500MB`.

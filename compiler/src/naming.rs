@@ -1,5 +1,6 @@
 //! Identifiers of generated code, made from the names of a specification.
 
+pub mod letters;
 mod reserved;
 pub mod st;
 

@@ -4,7 +4,7 @@ use super::super::options::{StepOrders, VerifyOptions, Warnings};
 use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
 use autogen::verify::{Never, Skipped};
-use autogen_search::explore::{Decided, End, Outcome};
+use autogen_search::explore::{Covered, Decided, End, Outcome};
 use autogen_search::property::Check;
 use autogen_search::story::Execution;
 use autogen_search::violation::Violation;
@@ -18,12 +18,38 @@ pub struct Report<'a> {
     pub outcome: &'a Outcome,
     /// Answers in one scan of the last search.
     pub answers: Option<usize>,
+    pub first: Option<First>,
     pub shown: &'a [Shown<'a>],
     /// Properties that were left out.
     pub skipped: &'a [Skipped],
     /// What [`autogen::verify::under_way::places`] says.
     pub under_way: Vec<String>,
     pub never: Unreached<'a>,
+}
+
+/// A search with one answer in a scan that came before, and found no violation.
+pub struct First {
+    pub is_proved: bool,
+    pub covered: Covered,
+}
+
+impl First {
+    fn text(&self) -> String {
+        let Covered { states, failing, time, .. } = self.covered;
+        let what = match failing {
+            _ if self.is_proved => "proved".into(),
+            Some(failing) => checked(failing),
+            None => "nothing found".into(),
+        };
+        format!("{what}: {states} states, {:.2} s", time.as_secs_f64())
+    }
+
+    fn json(&self) -> Value {
+        let Covered { states, failing, time, .. } = self.covered;
+        json!({
+            "proved": self.is_proved, "failing_scans": failing, "states": states, "time_s": time.as_secs_f64()
+        })
+    }
 }
 
 /// What happens in no execution of a complete search: nothing is proved of it.
@@ -273,6 +299,9 @@ impl Report<'_> {
                 if let Some(failing) = covered.failing {
                     let _ = writeln!(out, "checked            {}", checked(failing));
                 }
+                if let Some(first) = &self.first {
+                    let _ = writeln!(out, "with one answer    {}", first.text());
+                }
             }
         }
         out
@@ -321,6 +350,7 @@ impl Report<'_> {
             "orders_decided": self.are_orders_decided(),
             "time_s": covered.time.as_secs_f64(),
             "memory_bytes": covered.memory,
+            "with_one_answer": self.first.as_ref().map(First::json),
         })
     }
 }

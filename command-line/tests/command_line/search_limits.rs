@@ -41,6 +41,19 @@ fn a_state_with_too_many_successors_is_cut_by_the_limits() {
 }
 
 #[test]
+fn a_cut_search_says_what_the_one_before_it_has_proved() {
+    let folder = machines("search_before", 14);
+    let arguments = ["verify", "line.json", "--scenario", "scenario.json", "--limit", "5s"];
+    let output = autogen(&folder, &arguments);
+    assert_eq!(status(&output), 4, "{}", errors(&output));
+    let said = printed(&output);
+    assert!(said.contains("with one answer    proved: 16385 states"), "{said}");
+    let arguments = [&arguments[..4], &["--format", "json", "--answers", "1"]].concat();
+    let json = printed(&autogen(&folder, &arguments));
+    assert!(json.contains(r#""with_one_answer":null"#), "{json}");
+}
+
+#[test]
 fn two_limits_of_a_kind_are_refused() {
     let folder = machines("search_two_limits", 1);
     for (limits, kind) in [(["1s", "5min"], "time"), (["1GB", "500MB"], "amount of memory")] {

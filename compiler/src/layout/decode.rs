@@ -2,6 +2,7 @@
 
 use super::json::{Json, Member, Value};
 use crate::diagnostic::{Diagnostic, MOST, collect, suggestion};
+use crate::naming::letters::in_ascii;
 use crate::source::{Span, Spanned};
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -332,6 +333,7 @@ fn is_identifier(name: &str) -> bool {
 
 /// The identifier nearest to `text`; `prefix` stands before one that begins with a digit.
 pub fn make_identifier(text: &str, prefix: &str) -> String {
+    let text = in_ascii(text);
     let words: Vec<&str> =
         text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let mut name = words.join("_");

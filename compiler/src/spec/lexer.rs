@@ -1,10 +1,11 @@
 //! Text to tokens.
 
-mod foreign;
+pub mod foreign;
 
 pub use foreign::CAPITALS;
 
 use crate::diagnostic::{Diagnostic, MOST};
+use crate::naming::letters::in_ascii;
 use crate::plain;
 use crate::source::{FileId, Span};
 
@@ -60,9 +61,23 @@ pub fn tokens(file: FileId, text: &str, most: usize) -> (Vec<(Token, Span)>, Vec
                 )
                 .help("begin each line of a comment with `//`"),
             );
-        } else if c.is_ascii_alphabetic() || c == '_' {
-            at += rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
+        } else if c.is_alphabetic() || c == '_' {
+            at += rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
             let word = &text[start..at];
+            if let Some(letter) = word.chars().find(|letter| !letter.is_ascii()) {
+                let span = Span::new(file, start, at);
+                let meant = in_ascii(word);
+                let help = match meant.is_ascii() {
+                    true => format!("write `{meant}`"),
+                    false => {
+                        "names have letters a to z, digits and underscores; comments begin with `//`".into()
+                    }
+                };
+                let message = format!("`{letter}` is not a letter of a name");
+                diagnostics.push(Diagnostic::new("E0201", span, message).help(help));
+                found.push((Token::Word(meant), span));
+                continue;
+            }
             if text[at..].starts_with('#') && ["t", "time"].contains(&word.to_lowercase().as_str()) {
                 at += foreign::literal_length(&text[at..]);
                 let span = Span::new(file, start, at);
@@ -121,6 +136,9 @@ pub fn tokens(file: FileId, text: &str, most: usize) -> (Vec<(Token, Span)>, Vec
                 '!' => "write `not`",
                 '&' => "write `and`",
                 '|' => "write `or`",
+                '%' if rest[1..].starts_with(['I', 'Q', 'M']) => {
+                    "addresses stand in a table: `autogen build LAYOUT --io TABLE`"
+                }
                 '%' => "write `mod`",
                 '\'' => "texts are in double quotes",
                 _ => "names have letters a to z, digits and underscores; comments begin with `//`",

@@ -270,6 +270,15 @@ impl Parser {
             return Some(());
         }
         let found = self.found();
+        if sign == ";" && self.is_before_description_of_next() {
+            // The description is that of the next declaration.
+            self.diagnose(
+                Diagnostic::new("E0205", self.last_span(), format!("`;` is missing {after}"))
+                    .label(format!("then comes {found}"))
+                    .help("write `;` after this"),
+            );
+            return Some(());
+        }
         let is_confused = CONFUSED.contains(&sign) && CONFUSED.iter().any(|other| self.at_sign(other));
         let (place, help) = match sign {
             ";" => (self.last_span(), "write `;` after this".to_string()),
@@ -282,6 +291,14 @@ impl Parser {
                 .help(help),
         );
         is_confused.then(|| self.next())
+    }
+
+    /// Whether a description stands here, and behind it no `;`.
+    fn is_before_description_of_next(&self) -> bool {
+        let from_here = self.tokens[self.position.min(self.tokens.len() - 1)..].iter();
+        let mut rest = from_here.skip_while(|(token, _)| matches!(token, Token::Doc(_)));
+        matches!(self.peek(), Token::Doc(_))
+            && rest.next().is_none_or(|(token, _)| *token != Token::Sign(";"))
     }
 
     fn expect_word(&mut self, word: &str, after: &str) -> Option<()> {
@@ -355,6 +372,16 @@ impl Parser {
     fn report(&mut self, diagnostic: Diagnostic) {
         let is_first = self.error_at != Some(self.position);
         let diagnostic = self.misplaced_description().unwrap_or(diagnostic);
+        self.note(diagnostic, is_first);
+    }
+
+    /// As [`Self::report`], where a description may stand.
+    fn diagnose(&mut self, diagnostic: Diagnostic) {
+        let is_first = self.error_at != Some(self.position);
+        self.note(diagnostic, is_first);
+    }
+
+    fn note(&mut self, diagnostic: Diagnostic, is_first: bool) {
         if is_first {
             collect(&mut self.diagnostics, diagnostic);
         }

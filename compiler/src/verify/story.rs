@@ -46,7 +46,7 @@ impl Teller<'_> {
             }
             Violation::Stop { .. } => "the line stops until an operator comes".into(),
             Violation::StopsAgain => {
-                "the line stops until an operator comes, and stops again in the next scan each time".into()
+                "the line stops until an operator comes, and stops again each time it is started".into()
             }
             Violation::FaultBehindStop { instance, fault } => {
                 let site = &self.project.system.model.faults[fault];

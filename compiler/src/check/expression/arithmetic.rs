@@ -133,6 +133,9 @@ impl Context<'_, '_> {
             let help = match (a.ty, b.ty) {
                 (Scalar::Time, Scalar::Int { .. } | Scalar::Real) => unit_help(right),
                 (Scalar::Int { .. } | Scalar::Real, Scalar::Time) => unit_help(left),
+                (Scalar::Bool, Scalar::Int { .. }) | (Scalar::Int { .. }, Scalar::Bool) => {
+                    "a `bool` is `true` or `false` and stands alone: `when sensor`, `when not sensor`".into()
+                }
                 _ => "`<` and `>` are for two numbers or two times; values of one other type can be compared with `=` and `<>`".into(),
             };
             let (left, right) = (self.checker.type_name(a.ty), self.checker.type_name(b.ty));

@@ -8,6 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::ir::{self, Domain, Expr, ExprKind, Extent, Place, Scalar, Value, VariableId};
 use crate::source::Span;
 use crate::spec::ast;
+use crate::spec::lexer::foreign;
 use std::collections::BTreeSet;
 
 impl Context<'_, '_> {
@@ -70,10 +71,13 @@ impl Context<'_, '_> {
                 let known = ["count", "min", "max", "abs", "point", "up", "squared_distance"];
                 let help = match self.automaton.device.verbs.iter().find(|v| v.name == name.value) {
                     Some(verb) => format!("`{}` is a command: use it in updates", verb.name),
-                    None => crate::diagnostic::suggestion(&name.value, known)
-                        .map_or(format!("functions are {}", known.join(", ")), |n| {
-                            format!("is `{n}` meant?")
-                        }),
+                    None => match foreign::function_block(&name.value) {
+                        Some(help) => help.into(),
+                        None => crate::diagnostic::suggestion(&name.value, known)
+                            .map_or(format!("functions are {}", known.join(", ")), |n| {
+                                format!("is `{n}` meant?")
+                            }),
+                    },
                 };
                 self.report(
                     Diagnostic::new("E0311", name.span, format!("there is no function `{}`", name.value))

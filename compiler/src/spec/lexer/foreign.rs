@@ -8,6 +8,53 @@ use crate::source::Span;
 pub const CAPITALS: [(&str, &str); 6] =
     [("AND", "and"), ("FALSE", "false"), ("MOD", "mod"), ("NOT", "not"), ("OR", "or"), ("TRUE", "true")];
 
+/// Words that stand behind a number for a unit of time, with the unit that is meant and its number in one of them.
+const UNITS: [(&[&str], f64, &str); 4] = [
+    (&["msec", "millis", "milliseconds", "MS", "Ms", "mS"], 1.0, "ms"),
+    (&["sec", "secs", "second", "seconds", "S", "Sec", "SEC"], 1.0, "s"),
+    (&["mins", "minute", "minutes", "MIN", "Min"], 1.0, "min"),
+    (&["h", "H", "hr", "hrs", "hour", "hours"], 60.0, "min"),
+];
+
+/// How many of which unit a word behind a number means; none if it is no unit of time.
+pub fn unit(word: &str) -> Option<(f64, &'static str)> {
+    let of = UNITS.iter().find(|(words, ..)| words.contains(&word));
+    of.map(|(_, number, unit)| (*number, *unit))
+}
+
+/// What is written instead of a word of other languages that begins a declaration or a block.
+const WORDS: [(&str, &str); 8] = [
+    ("const", "parameter"),
+    ("input", "in"),
+    ("output", "out"),
+    ("step", "state"),
+    ("var", "local"),
+    ("variable", "local"),
+    ("var_input", "in"),
+    ("var_output", "out"),
+];
+
+/// Of these the one that is meant by a word of other languages.
+pub fn meant_among<'a>(word: &str, words: &[&'a str]) -> Option<&'a str> {
+    let (_, meant) = WORDS.iter().find(|(foreign, _)| word.eq_ignore_ascii_case(foreign))?;
+    words.iter().copied().find(|word| word == meant)
+}
+
+/// What does the work of a function block of Structured Text.
+pub fn function_block(name: &str) -> Option<&'static str> {
+    match name.to_ascii_uppercase().as_str() {
+        "TON" | "TOF" | "TP" => Some("a time in a state is `after 3 s`: `when after 3 s -> Next {}`"),
+        "R_TRIG" | "F_TRIG" => {
+            Some("an edge is two states: one waits for `not pressed`, the next one for `pressed`")
+        }
+        "CTU" | "CTD" | "CTUD" => {
+            Some("a counter is a variable: `local n: int 0..100 := 0;`, and `n += 1;` in a transition")
+        }
+        "SR" | "RS" => Some("a state remembers; so does a variable: `local is_full: bool := false;`"),
+        _ => None,
+    }
+}
+
 /// The word that is meant.
 pub fn word<'a>(word: &'a str, span: Span, diagnostics: &mut Vec<Diagnostic>) -> &'a str {
     let Some((_, meant)) = CAPITALS.iter().find(|(foreign, _)| *foreign == word) else { return word };
@@ -70,7 +117,16 @@ fn meant(written: &str) -> Option<(f64, &'static str)> {
 
 #[cfg(test)]
 mod tests {
-    use super::meant;
+    use super::{meant, unit};
+
+    #[test]
+    fn units_of_time_that_are_written_otherwise() {
+        assert_eq!(unit("sec"), Some((1.0, "s")));
+        assert_eq!(unit("h"), Some((60.0, "min")));
+        for other in ["s", "ms", "min", "mod", "m"] {
+            assert_eq!(unit(other), None, "{other}");
+        }
+    }
 
     #[test]
     fn durations_of_structured_text() {

@@ -4,7 +4,7 @@ use super::Parser;
 use super::property::WORDS;
 use crate::diagnostic::suggestion;
 use crate::spec::ast;
-use crate::spec::lexer::Token;
+use crate::spec::lexer::{Token, foreign};
 
 /// The words with which the parts of an automaton begin.
 pub(super) const MEMBERS: &[&str] = &[
@@ -169,15 +169,21 @@ impl Parser {
             _ => {
                 let found = self.found();
                 let near = match self.peek() {
-                    Token::Word(w) => suggestion(w, MEMBERS.iter().copied()),
+                    Token::Word(w) => {
+                        foreign::meant_among(w, MEMBERS).or_else(|| suggestion(w, MEMBERS.iter().copied()))
+                    }
                     _ => None,
                 };
-                let help = near.map_or(format!("an automaton has {}", MEMBERS.join(", ")), |w| {
-                    format!("is `{w}` meant?")
-                });
+                let help = match near {
+                    Some(word) => format!("is `{word}` meant?"),
+                    None if self.at_sign(";") => "remove it: nothing ends with `;` after its `}`".into(),
+                    None => format!("an automaton has {}", MEMBERS.join(", ")),
+                };
                 self.error("E0204", format!("{found} is not allowed in an automaton"), help);
-                self.next();
-                self.recover();
+                if !self.maybe_sign(";") {
+                    self.next();
+                    self.recover();
+                }
             }
         }
     }

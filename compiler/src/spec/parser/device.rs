@@ -3,7 +3,7 @@
 use super::Parser;
 use crate::source::Spanned;
 use crate::spec::ast;
-use crate::spec::lexer::Token;
+use crate::spec::lexer::{Token, foreign};
 use runtime_sim::device::Direction;
 
 /// The words with which the members of a device begin.
@@ -44,11 +44,16 @@ impl Parser {
             let known = self.word().and_then(|word| MEMBERS.iter().find(|member| **member == word));
             let Some(member) = known.copied() else {
                 let found = self.found();
-                self.error(
-                    "E0204",
-                    format!("{found} is not allowed in a device"),
-                    format!("a device has `{}`", MEMBERS.join("`, `")),
-                );
+                let near = match self.peek() {
+                    Token::Word(word) => foreign::meant_among(word, MEMBERS),
+                    _ => None,
+                };
+                let help = match near {
+                    Some(word) => format!("is `{word}` meant?"),
+                    None if self.at_sign(";") => "remove it: nothing ends with `;` after its `;`".into(),
+                    None => format!("a device has `{}`", MEMBERS.join("`, `")),
+                };
+                self.error("E0204", format!("{found} is not allowed in a device"), help);
                 self.next();
                 self.recover_member();
                 continue;

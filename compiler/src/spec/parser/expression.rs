@@ -3,7 +3,7 @@
 use super::{DEEPEST, LONGEST, Parser};
 use crate::source::Span;
 use crate::spec::ast::{self, Expr, ExprKind, Operator, Quantifier};
-use crate::spec::lexer::Token;
+use crate::spec::lexer::{Token, foreign};
 
 impl Parser {
     pub(super) fn parse_expr(&mut self) -> Expr {
@@ -355,7 +355,17 @@ impl Parser {
             Some("ms") => 1.0,
             Some("s") => 1000.0,
             Some("min") => 60_000.0,
-            _ => return Expr { span, kind: plain },
+            Some(word) => match foreign::unit(word) {
+                Some((factor, unit)) => {
+                    let message = format!("`{word}` is no unit of time");
+                    let help = format!("units are `ms`, `s` and `min`: write `{} {unit}`", value * factor);
+                    self.error("E0214", message, help);
+                    self.next();
+                    return Expr { span: span.to(self.last_span()), kind: ExprKind::Duration(0) };
+                }
+                None => return Expr { span, kind: plain },
+            },
+            None => return Expr { span, kind: plain },
         };
         let span = span.to(self.span());
         self.next();

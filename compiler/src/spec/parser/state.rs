@@ -60,6 +60,16 @@ impl Parser {
 
     fn transitions(&mut self) -> Vec<ast::Transition> {
         let mut transitions = Vec::new();
+        if self.word().is_some() && !self.at_state() {
+            let found = self.found();
+            let help = if self.at_word("else") {
+                "`within` has no text; that of a property is shown: `whenever P then Q within 10 s else \"text\";`"
+            } else {
+                "write the transitions in braces: `state Name within 10 s { when done -> Next {} }`"
+            };
+            self.error("E0205", format!("{found} cannot stand before the transitions of a state"), help);
+            self.skip_to(&[]);
+        }
         if self.expect_sign("{", "before the transitions").is_none() {
             self.recover();
             return transitions;
@@ -128,6 +138,9 @@ impl Parser {
             clauses.extend(self.clause());
         }
         let guard = ast::Guard::Written(guard_start.to(self.last_span()));
+        if self.errors == errors {
+            self.foreign_behind_guard();
+        }
         if self.errors > errors {
             self.skip_to(&["->"]);
         }
@@ -175,6 +188,22 @@ impl Parser {
         let updates =
             if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
         Some(ast::Transition { span: start.to(self.last_span()), clauses, guard, target, updates })
+    }
+
+    /// Reports what is written behind a guard in other languages.
+    fn foreign_behind_guard(&mut self) {
+        let found = self.found();
+        if self.at_sign(":=") {
+            let help =
+                "two values are compared with `=`; a `bool` stands alone: `when sensor`, `when not sensor`";
+            self.error("E0205", "`:=` does not compare, it assigns".into(), help);
+        } else if self
+            .word()
+            .is_some_and(|word| ["then", "do"].iter().any(|of| word.eq_ignore_ascii_case(of)))
+        {
+            let help = "leave it out: `when GUARD -> State {}`";
+            self.error("E0204", format!("{found} is not written behind a guard"), help);
+        }
     }
 
     fn without_updates(&mut self, target: &ast::Name) {
