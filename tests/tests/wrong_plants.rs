@@ -337,3 +337,18 @@ fn floors_that_do_not_turn_with_their_machine() {
         assert_eq!(found, turned_by, "{place}");
     }
 }
+
+#[test]
+fn a_type_that_forgets_what_another_one_retains() {
+    let count = |texts: &Texts| {
+        let outcome = texts.compile();
+        assert!(outcome.diagnostics.is_empty(), "{:?}", outcome.diagnostics);
+        outcome.warnings.iter().filter(|found| found.code == "W0117").count()
+    };
+    let both = own_line("buffer");
+    assert_eq!(count(&both), 0);
+    let one = both.replaced(&[("    retain all;\n", "")]);
+    // Two types of the library work with it.
+    assert_eq!(count(&one), 3);
+    assert_eq!(count(&one.replaced(&[("    local next", "    retain next;\n    local next")])), 0);
+}

@@ -98,3 +98,17 @@ fn what_is_in_the_way_of_pages_is_known_before_the_runs() {
     }
     assert!(!folder.join("new.html").exists());
 }
+
+#[test]
+fn the_table_of_the_manual_is_what_its_command_prints() {
+    let manual = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/sweeps.md");
+    let manual = fs::read_to_string(manual).expect("the manual");
+    let (_, behind) =
+        manual.split_once("tending.json --set mill.cut=30,60,90\n```\n\n```text\n").expect("the command");
+    let (table, _) = behind.split_once("```").expect("an end");
+    let arguments = ["sweep", &example("tending/tending.json"), "--set", "mill.cut=30,60,90"];
+    let output = autogen(&folder("sweep_manual"), &arguments);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let printed = printed(&output);
+    assert!(printed.starts_with(table), "{printed}\n{table}");
+}

@@ -160,6 +160,21 @@ fn wrong_tests_are_refused_with_their_places() {
 }
 
 #[test]
+fn a_test_gives_no_cell_that_its_machine_alone_writes() {
+    let folder = folder("test_own_cell");
+    fs::copy(example("ariac2021/default.json"), folder.join("line.json")).expect("a copy");
+    for (given, is_right) in [("offer", false), ("slot[0]", true), ("taken", true)] {
+        let value = if given.starts_with("slot") { "Full" } else { "true" };
+        let test =
+            format!("layout \"line.json\";\ntest \"a\" of agv1 {{ 1 s: {given} = {value} -> Returning; }}\n");
+        fs::write(folder.join("line.test"), test).expect("a file");
+        let output = autogen(&folder, &["test", "."]);
+        let told = errors(&output).contains("the automaton itself writes `offer`");
+        assert_eq!(told, !is_right, "{given}: {}{}", said(&output), errors(&output));
+    }
+}
+
+#[test]
 fn files_with_errors_are_named_behind_the_results() {
     let folder = changed("test_not_run", "specs/stamp.aut", "hold_time: time", "hold_time: tim");
     let output = autogen(&folder, &["test", "line", "--junit", "results.xml"]);

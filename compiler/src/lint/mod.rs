@@ -12,6 +12,7 @@ mod lanes;
 mod moving;
 mod overwritten;
 mod processes;
+mod retained;
 mod undriven;
 mod unused;
 
@@ -49,6 +50,7 @@ pub fn of_layout(layout: &Layout, system: &System, line: &Line) -> Vec<Diagnosti
     found.extend(processes::check(system, line));
     found.extend(driven::check(layout, line));
     found.extend(floors::check(layout, system, line));
+    found.extend(retained::check(system));
     diagnostic::sort(&mut found);
     found
 }

@@ -5,7 +5,7 @@ use super::value;
 use super::{Expected, Failure, Given, Path, Row, Time};
 use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
-use crate::ir::{Group, Named, System, Value};
+use crate::ir::{Element, Group, Named, Rule, System, Value};
 use crate::source::Span;
 use runtime_sim::scan::Controllers;
 
@@ -171,14 +171,21 @@ fn step(system: &System, machine: usize, row: &Row, found: &mut Vec<Diagnostic>)
 fn giving(system: &System, machine: usize, path: &Path) -> Result<Named, Box<Diagnostic>> {
     let named = value::named(system, machine, path)?;
     match named.group {
-        Group::Input | Group::Cell => Ok(named),
-        Group::Output | Group::Local => {
+        Group::Input | Group::Cell if !is_its_own(system, machine, named.element) => Ok(named),
+        _ => {
             let message = format!("the automaton itself writes `{}`", path.name);
             Err(Diagnostic::new("E0902", path.span, message)
-                .help("set inputs of the device and shared cells; expect this value after `->`")
+                .help("set inputs of the device, and shared cells that others write; expect this value after `->`")
                 .into())
         }
     }
+}
+
+/// Whether it is a cell of this machine that nobody else writes.
+fn is_its_own(system: &System, machine: usize, element: Element) -> bool {
+    let Element::Cell { interface, cell, .. } = element else { return false };
+    let rule = &system.model.interface(interface).cells[cell].rule;
+    matches!(rule, Rule::Owner) && system.owner(element) == machine
 }
 
 fn shown_path(path: &Path) -> String {
