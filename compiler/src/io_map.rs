@@ -74,11 +74,17 @@ pub enum Conversion {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IoMap {
     wires: BTreeMap<usize, Wire>,
+    counting: Counting,
 }
 
 impl IoMap {
     pub fn wire(&self, point: usize) -> Option<&Wire> {
         self.wires.get(&point)
+    }
+
+    /// How the addresses count.
+    pub fn counting(&self) -> Counting {
+        self.counting
     }
 
     /// How many points have an address.
@@ -153,7 +159,7 @@ pub fn read(
     }
     diagnostic::sort(&mut found);
     match found.is_empty() {
-        true => Ok(IoMap { wires }),
+        true => Ok(IoMap { wires, counting }),
         false => Err(found),
     }
 }

@@ -62,7 +62,7 @@ use context::Shared;
 use declaration::Unit;
 use externals::Externals;
 use globals::{Globals, Index};
-use image::Image;
+use image::{Image, Wired};
 use program::Blocks;
 use runtime_sim::io_trace::Columns;
 use std::collections::{BTreeSet, HashSet};
@@ -114,6 +114,7 @@ pub struct Program<'a> {
     shared: Shared<'a>,
     map: &'a IoMap,
     line: Line<'a>,
+    wired: Vec<Wired>,
     /// The names of MAIN.
     names: &'a Scope,
 }
@@ -130,7 +131,7 @@ pub fn with_program<T>(
     let mut program = names.program.inner();
     let image = image::image(system, &names, map, &mut program);
     let shared = Shared { system, sources, names: &names };
-    write(Program { shared, map, line: line(shared, &image), names: &program })
+    write(Program { shared, map, line: line(shared, &image), wired: image.wired, names: &program })
 }
 
 impl Program<'_> {
@@ -191,7 +192,8 @@ impl Program<'_> {
 
     fn siemens(&self, places: &Places, files: &mut dyn Sink) {
         let by_number = self.structured(places, Enumerated::ByNumber);
-        siemens::files(self.shared, &by_number, &mut Folder { name: "siemens", sink: files });
+        let copies = siemens::copies(&self.wired, self.map.counting());
+        siemens::files(self.shared, &by_number, &copies, &mut Folder { name: "siemens", sink: files });
     }
 }
 

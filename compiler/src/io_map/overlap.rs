@@ -6,9 +6,10 @@ use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 
 /// How the controller counts addresses of different sizes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Counting {
     /// `%IW1` is the bytes 2 and 3, as in CODESYS.
+    #[default]
     Words,
     /// `%IW1` is the bytes 1 and 2, as in TwinCAT.
     Bytes,

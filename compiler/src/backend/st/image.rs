@@ -20,6 +20,14 @@ pub struct Image {
     pub raw: Vec<Variable>,
     pub inputs: Vec<Stmt>,
     pub outputs: Vec<Stmt>,
+    pub wired: Vec<Wired>,
+}
+
+/// A variable that has the raw value of an address.
+pub struct Wired {
+    pub variable: String,
+    pub direction: Direction,
+    pub wire: Wire,
 }
 
 /// The image of a line. Raw variables are named last, so that no other name depends on the table.
@@ -30,13 +38,20 @@ pub fn image(system: &System, names: &Names, map: &IoMap, program: &mut Scope) -
     }
     for (number, terminal) in terminals(system, names).enumerate() {
         let Some(wire) = map.wire(number) else { continue };
+        let wired = |variable: &str| Wired {
+            variable: variable.into(),
+            direction: terminal.point.direction,
+            wire: *wire,
+        };
         if stands_there_itself(&terminal, wire) {
             image.located.insert(terminal.variable.clone(), wire.address.to_string());
+            image.wired.push(wired(&terminal.variable));
             continue;
         }
         let element = terminal.element.map(|i| format!("_{i}")).unwrap_or_default();
         let raw = program.take_all(&format!("{}{element}", terminal.variable), &["_raw"]).concat();
         image.raw.push(variable(&terminal, wire, &raw));
+        image.wired.push(wired(&raw));
         match terminal.point.direction {
             Direction::Input => {
                 image.inputs.push(Stmt::Assign(terminal.place(), value(&terminal, wire, &raw)))

@@ -4,6 +4,7 @@
 //! `"Line".name` for what all blocks share, `"F_name"` for a function; and that states and members are constants
 //! of the block.
 
+mod copies;
 mod quotes;
 
 use super::Line;
@@ -17,6 +18,7 @@ use super::values::Elements;
 use crate::backend::{Part, Sink, Text, part};
 use crate::naming::is_reserved;
 use askama::Template;
+pub use copies::copies;
 use quotes::{is_word, push_quoted, quoted};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
@@ -72,17 +74,15 @@ struct Block<'a> {
     body: Part<'a>,
 }
 
-/// `main.scl`, and how it is called.
-pub fn files(shared: Shared, line: &Line, files: &mut dyn Sink) {
+/// `main.scl`, and how it is called. `copies` is what [`copies`] says of the table of addresses.
+pub fn files(shared: Shared, line: &Line, copies: &str, files: &mut dyn Sink) {
     files.file("main.scl", &Text(|f: &mut Formatter| main(shared, line, f)));
-    let at_addresses: Vec<&str> =
-        line.globals.all().filter(|v| v.address.is_some()).map(|v| v.name.as_str()).collect();
     let task = include_str!("../../../../templates/plc/siemens/task.txt");
     let scan_ms = shared.system.scan_ms;
     let task = task
         .replace("SCAN_US", &(i64::from(scan_ms) * 1000).to_string())
         .replace("SCAN_MS", &scan_ms.to_string())
-        .replace("AT_ADDRESSES", &connected(&at_addresses));
+        .replace("AT_ADDRESSES", copies);
     files.file("TASK.txt", &task);
 }
 
@@ -109,20 +109,6 @@ fn main(shared: Shared, line: &Line, to: &mut Formatter) -> fmt::Result {
         true => write!(to, "\n{}", instance.replace("NON_RETAIN\n", "")),
         false => write!(to, "\n{instance}"),
     }
-}
-
-/// Which variables the points of the table of addresses have.
-fn connected(names: &[&str]) -> String {
-    let raw: Vec<String> =
-        names.iter().filter(|name| name.ends_with("_raw")).map(|n| format!("       {n}\n")).collect();
-    if raw.is_empty() {
-        return String::new();
-    }
-    format!(
-        "\n   By the table of addresses these variables have the raw values. Copy to and from them; the program writes the\n   \
-         others of the same name without `_raw`:\n\n{}",
-        raw.concat()
-    )
 }
 
 fn sections(keyword: &str, variables: &[Variable], to: &mut Formatter) -> fmt::Result {
