@@ -6,8 +6,13 @@ const Figures = (() => {
   const percent = (part, whole) => `${((100 * part) / (whole || 1)).toFixed(1)} %`;
 
   function head() {
-    document.title = `${raw.name} – report`;
+    const facts = results.of_sweep || [];
+    const row = facts.length ? `, ${facts[0].join(' ')}` : '';
+    document.title = `${raw.name}${row} – report`;
     byId('name').textContent = raw.name;
+    byId('facts').append(...facts.map(([name, value]) =>
+      element('div', '', element('dt', '', name), element('dd', '', value))));
+    byId('facts').hidden = !facts.length;
     const verdict = byId('verdict');
     const { violation } = results;
     const found = violation ? `${violation.text}: at ${seconds(violation.at_s)} s; the run ends: ` : '';
