@@ -17,7 +17,10 @@ pub fn title(design: &Design) -> String {
     let varied: Vec<&str> =
         (design.axes.iter()).filter(|axis| axis.values.len() > 1).map(|axis| axis.name.as_str()).collect();
     let by = if varied.is_empty() { String::new() } else { format!(" by {}", varied.join(", ")) };
-    format!("Sweep of {}{by}", listed(&design.layouts))
+    match design.layouts.len() {
+        count if count > FIRST => format!("Sweep of {count} layouts{by}"),
+        _ => format!("Sweep of {}{by}", design.layouts.join(", ")),
+    }
 }
 
 pub fn of_sweep(plan: &Plan, options: &SweepOptions) -> Vec<Fact> {

@@ -3,7 +3,9 @@
 
 const Across = (() => {
   /* Pixels between two labels. */
-  const APART = 8;
+  const APART = 6;
+  /* Numbers that are named themselves; of more, round ones are. */
+  const MOST_NAMED = 12;
   /* Of a turned label: its angle in degrees, the least distance to the next one, and its greatest width. */
   const TURN = 35, LINE = 15, MOST_WIDTH = 120;
   const SLOPE = (TURN * Math.PI) / 180;
@@ -42,6 +44,16 @@ const Across = (() => {
 
   const canHold = (count, length) => count * (APART + 6) <= length;
 
+  /* The first one, the last one, and those between them that have room. */
+  function some(labels) {
+    const last = labels[labels.length - 1];
+    const kept = [labels[0]];
+    for (const label of labels.slice(1, -1)) {
+      if (areClear([kept[kept.length - 1], label, last])) kept.push(label);
+    }
+    return areClear([labels[0], last]) ? [...kept, last] : kept;
+  }
+
   function ofNumbers({ values }, length) {
     const numbers = values.map(Number);
     const order = numbers.map((_, i) => i).sort((a, b) => numbers[a] - numbers[b]);
@@ -49,25 +61,26 @@ const Across = (() => {
     const ratio = isInRatio(sorted);
     const measure = ratio ? Math.log10 : (value) => value;
     const [from, to] = [measure(sorted[0]), measure(sorted[sorted.length - 1])];
-    const edge = Math.min(30, length / (2 * values.length));
+    const edge = Math.max(6, Math.min(30, length / (2 * values.length)));
     const x = (value) => edge + ((measure(value) - from) / (to - from)) * (length - 2 * edge);
     const places = numbers.map(x);
     let gap = length;
     for (let i = 1; i < order.length; i++) gap = Math.min(gap, places[order[i]] - places[order[i - 1]]);
 
+    const own = order.map((i) => ({ x: places[i], text: values[i] }));
     function named() {
-      const own = order.map((i) => ({ x: places[i], text: values[i] }));
-      if (!canHold(own.length, length)) return null;
+      if (own.length > MOST_NAMED && !canHold(own.length, length)) return null;
       if (areClear(own)) return level(own);
-      return gap >= LINE && Labels.widest(values) <= MOST_WIDTH ? turned(own) : null;
+      if (gap >= LINE && Labels.widest(values) <= MOST_WIDTH) return turned(own);
+      return own.length <= MOST_NAMED ? level(some(own)) : null;
     }
 
     function round() {
-      const lists = ratio ? [[1, 2, 5], [1]].map((factors) => Ticks.inRatio(sorted[0], sorted[sorted.length - 1], factors))
-        : [10, 8, 6, 5, 4, 3, 2].map((most) => Ticks.even(sorted[0], sorted[sorted.length - 1], most));
+      const [least, greatest] = [sorted[0], sorted[sorted.length - 1]];
+      const lists = ratio ? [[1, 2, 5], [1]].map((factors) => Ticks.inRatio(least, greatest, factors))
+        : [10, 8, 6, 5, 4, 3, 2].map((most) => Ticks.even(least, greatest, most));
       const labels = lists.map((list) => list.map(({ value, text }) => ({ x: x(value), text })));
-      const ends = [0, order.length - 1].map((k) => ({ x: places[order[k]], text: values[order[k]] }));
-      return level(labels.find((some) => some.length > 1 && areClear(some)) || (areClear(ends) ? ends : ends.slice(0, 1)));
+      return level(labels.find((found) => found.length > 1 && areClear(found)) || some(own));
     }
 
     return { places, order, gap, isToScale: true, isInRatio: ratio, ...(named() || round()) };
@@ -80,9 +93,9 @@ const Across = (() => {
       const own = values.map((text, i) => ({ x: places[i], text }));
       if (canHold(own.length, length) && areClear(own)) return level(own);
       const each = Math.ceil(LINE / gap);
-      const some = own.filter((_, i) => i % each === 0);
-      const texts = Labels.shortened(some.map(({ text }) => text), Math.min(MOST_WIDTH, length / 3));
-      const short = some.map(({ x }, i) => ({ x, text: texts[i] }));
+      const kept = own.filter((_, i) => i % each === 0);
+      const texts = Labels.shortened(kept.map(({ text }) => text), Math.min(MOST_WIDTH, length / 3));
+      const short = kept.map(({ x }, i) => ({ x, text: texts[i] }));
       return areClear(short) ? level(short) : turned(short);
     };
     return { places, order: values.map((_, i) => i), gap, isToScale: false, isInRatio: false, ...named() };

@@ -3,16 +3,17 @@
 
 const Chart = (() => {
   const PLOT = 220, TOP = 12, RIGHT = 16, TITLE = 20;
+  const MOST_TICKS = 7;
   /* With more rows, marks are drawn together and have no texts of their own. */
   const MOST_TOLD = 3000;
-  /* Pixels between marks of the same value at most, for words and for numbers. */
-  const BESIDE = { words: 14, numbers: 7 };
+  /* Pixels between marks of the same value at most, and all of them; for numbers these are a shift from their place. */
+  const BESIDE = 14, NUMBERS_BESIDE = 7, ALL_NUMBERS_BESIDE = 36;
 
   /* Draws an axis of figures and one of values into a box of this width. */
   function drawn(k, all, width) {
     const name = Sweep.names[k];
     const range = Up.range(Sweep.rows);
-    const ticks = Up.ticks(range, 5);
+    const ticks = Up.ticks(range, MOST_TICKS);
     const ofTicks = Labels.widest(ticks.map(({ text }) => text)) + 12;
     let left = ofTicks, across = Across.of(name, width - left - RIGHT);
     if (across.left > left) {
@@ -35,7 +36,8 @@ const Chart = (() => {
     }
     const note = across.isInRatio ? ' (logarithmic scale)' : '';
     made.append(svg('text', { x: (left + width - RIGHT) / 2, y: height - 6, class: 'middle axis-name' }, name.title + note));
-    const beside = Math.min(BESIDE[across.isToScale ? 'numbers' : 'words'], (0.7 * across.gap) / all.length);
+    const most = across.isToScale ? Math.min(NUMBERS_BESIDE, ALL_NUMBERS_BESIDE / all.length) : BESIDE;
+    const beside = Math.min(most, (0.7 * across.gap) / all.length);
     const radius = across.gap > 10 ? 4 : across.gap > 5 ? 3 : 2;
     const paper = { left, bottom, y, beside, radius, across, count: all.length, area: [TOP, bottom] };
     // Colours lie over grey.

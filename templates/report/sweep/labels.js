@@ -8,37 +8,53 @@ const Labels = (() => {
   const width = (text) => pen.measureText(text).width;
   const widest = (texts) => texts.reduce((most, text) => Math.max(most, width(text)), 0);
 
-  /* Characters at the beginning that all texts have. */
-  function alike(texts) {
+  /* Characters that two texts have in common at their beginning, or with `from` -1 at their end. */
+  function alike(one, other, from) {
+    const most = Math.min(one.length, other.length);
     let count = 0;
-    while (texts[0].length > count && texts.every((text) => text[count] === texts[0][count])) count++;
+    const at = (text) => text.at(from < 0 ? -1 - count : count);
+    while (count < most && at(one) === at(other)) count++;
     return count;
   }
 
-  /* With this many characters at most: without some of the first `head` or the last `tail`, if they are enough. */
-  function cut(text, most, head, tail) {
-    const out = text.length - most + 1;
-    if (out <= 1) return text;
-    const middle = (from, to) => Math.max(from, Math.floor((from + to - out) / 2));
-    const from = head > out ? middle(1, head) : tail > out ? middle(text.length - tail, text.length - 1) : middle(0, text.length);
-    return `${text.slice(0, from)}…${text.slice(from + out)}`;
+  /* Where a text differs from all others: what stands before, and what after, may be cut. */
+  function parts(text, texts) {
+    const others = texts.filter((other) => other !== text);
+    const most = (from) => others.reduce((length, other) => Math.max(length, alike(text, other, from)), 0);
+    const head = most(1), tail = Math.min(most(-1), text.length - head);
+    return [text.slice(0, head), text.slice(head, text.length - tail), text.slice(text.length - tail)];
+  }
+
+  /* With this many characters at most: without its middle. */
+  function cut(text, most) {
+    if (text.length <= most) return text;
+    const begin = Math.ceil((most - 1) / 2);
+    return most < 1 ? '' : `${text.slice(0, begin)}…${text.slice(text.length - (most - 1 - begin))}`;
+  }
+
+  /* The same, of a text that is not to lose what makes it differ. */
+  function cutApart([head, own, tail], most) {
+    const room = most - own.length;
+    if (room < 3 || !(head || tail)) return cut(head + own + tail, most);
+    const right = Math.min(tail.length, Math.floor(room / 2));
+    const left = Math.min(head.length, room - right);
+    return cut(head, left) + own + cut(tail, room - left);
   }
 
   /* No wider than this, and different where they were, if that can be. */
   function shortened(texts, room) {
     if (widest(texts) <= room) return texts;
-    const head = texts.length > 1 ? alike(texts) : 0;
-    const tail = texts.length > 1 ? alike(texts.map((text) => [...text].reverse().join(''))) : 0;
+    const all = texts.map((text) => parts(text, texts));
     const areApart = (some) => new Set(some).size === new Set(texts).size;
     const longest = texts.reduce((most, text) => Math.max(most, text.length), 0);
     let fitting = null;
     for (let most = Math.min(longest, 60); most > 3; most--) {
-      const some = texts.map((text) => cut(text, most, head, tail));
+      const some = all.map((text) => cutApart(text, most));
       if (widest(some) > room) continue;
       if (areApart(some)) return some;
       fitting = fitting || some;
     }
-    return fitting || texts.map((text) => cut(text, 4, head, tail));
+    return fitting || texts.map((text) => cut(text, 4));
   }
 
   return { width, widest, shortened };

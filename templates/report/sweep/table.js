@@ -14,6 +14,9 @@ const RowTable = (() => {
     return made;
   }
 
+  /* Words may be long; numbers stand in one line. */
+  const named = (row, k) => (names[k].are_numbers ? Sweep.valueOf(row, k) : element('div', 'named', Sweep.valueOf(row, k)));
+
   /* A value as it is sorted: a number if all of it is one. */
   const value = (text) => (text.trim() !== '' && Number.isFinite(Number(text)) ? Number(text) : text);
 
@@ -42,7 +45,7 @@ const RowTable = (() => {
     return sortedTable([
       { name: 'row', isNumber: true, show: link, sort: (row) => row.number },
       ...names.map((name, k) => ({
-        name: name.title, isNumber: name.are_numbers, show: (row) => Sweep.valueOf(row, k), sort: (row) => value(Sweep.valueOf(row, k)),
+        name: name.title, isNumber: name.are_numbers, show: (row) => named(row, k), sort: (row) => value(Sweep.valueOf(row, k)),
       })),
       ...columns.map(({ title, about }, i) => ({
         name: title, about, isNumber: true, show: (row) => row.cells[i], sort: (row) => cell(row.cells[i]),
