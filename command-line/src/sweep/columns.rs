@@ -75,7 +75,12 @@ impl Columns {
                 11,
                 of(outcome.items, outcome.items_asked),
             ),
-            Text::new("items/h", "items that these sinks collect in an hour, over all runs", 8, per_hour(row)),
+            Text::new(
+                "items/h",
+                "items that these sinks collect in an hour, over all runs",
+                8,
+                per_hour(row),
+            ),
             Text::new("goal at s", "time until the goal is reached, in seconds", 9, seconds(row.figure)),
         ];
         Self { values, texts }

@@ -29,7 +29,8 @@ pub fn of_sweep(plan: &Plan, options: &SweepOptions) -> Vec<Fact> {
     facts.add("layouts", listed(&design.layouts));
     facts.add("scenario", listed(&scenarios(plan)));
     if !options.specs.is_empty() {
-        facts.add("types from", listed(&options.specs.iter().map(|path| file_name(path)).collect::<Vec<_>>()));
+        facts
+            .add("types from", listed(&options.specs.iter().map(|path| file_name(path)).collect::<Vec<_>>()));
     }
     let (varied, fixed): (Vec<_>, Vec<_>) = design.axes.iter().partition(|axis| axis.values.len() > 1);
     let set = |axes: Vec<&Axis>| {
@@ -39,7 +40,10 @@ pub fn of_sweep(plan: &Plan, options: &SweepOptions) -> Vec<Fact> {
     };
     facts.add("varied", set(varied));
     facts.add("fixed", set(fixed));
-    facts.add("order of the steps, seed", listed(&design.orders.iter().map(u64::to_string).collect::<Vec<_>>()));
+    facts.add(
+        "order of the steps, seed",
+        listed(&design.orders.iter().map(u64::to_string).collect::<Vec<_>>()),
+    );
     facts.add("I/O delay, scans", listed(&design.delays));
     let runs = design.replications;
     match &options.until_precision {
@@ -108,9 +112,11 @@ fn scenarios(plan: &Plan) -> Vec<String> {
 /// Those of the scenarios, unless they are varied.
 fn seeds(plan: &Plan) -> String {
     let mut seeds: Vec<String> = Vec::new();
-    let is_varied = plan.lines.iter().any(|line| line.settings.iter().any(|of_axis| {
-        of_axis.first().is_some_and(|setting| line.draft.is_of_supply(setting))
-    }));
+    let is_varied = plan.lines.iter().any(|line| {
+        line.settings
+            .iter()
+            .any(|of_axis| of_axis.first().is_some_and(|setting| line.draft.is_of_supply(setting)))
+    });
     for line in plan.lines.iter().filter(|_| !is_varied) {
         let seed = line.draft.seed().map(|seed| seed.to_string());
         seeds.extend(seed.filter(|seed| !seeds.contains(seed)));
