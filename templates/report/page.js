@@ -27,6 +27,9 @@ function choosable(line, choose) {
 /* Rows that are shown at first. */
 const MOST_ROWS = 100;
 
+/* Numbers within texts are compared as numbers. */
+const TEXTS = new Intl.Collator('en', { numeric: true });
+
 /* Numbers before texts, and last what there is not. */
 function rank(value) {
   if (value === null || value === undefined || Number.isNaN(value)) return 2;
@@ -53,18 +56,21 @@ function sortedTable(columns, rows, { chosen, first = 0, empty }) {
     most = Infinity;
     fill();
   });
-  const order = (a, b) => {
-    const [p, q] = [a, b].map(columns[by].sort || columns[by].show);
+  const order = (p, q) => {
     const ranks = [rank(p), rank(q)];
     if (ranks.includes(2)) return ranks[0] - ranks[1];
-    const order = ranks[0] - ranks[1] || (ranks[0] ? p.localeCompare(q, 'en', { numeric: true }) : p - q);
-    return isDown ? -order : order;
+    const difference = ranks[0] - ranks[1] || (ranks[0] ? TEXTS.compare(p, q) : p - q);
+    return isDown ? -difference : difference;
   };
+  function sorted() {
+    const key = columns[by].sort || columns[by].show;
+    return rows.map((row) => ({ row, key: key(row) })).sort((a, b) => order(a.key, b.key)).map(({ row }) => row);
+  }
   function fill() {
     heads.forEach((head, i) => head.setAttribute('aria-sort', i !== by ? 'none' : isDown ? 'descending' : 'ascending'));
     // Not as arguments of a call: there may be more rows than a call can have.
     const lines = document.createDocumentFragment();
-    for (const row of [...rows].sort(order).slice(0, most)) {
+    for (const row of sorted().slice(0, most)) {
       const line = element('tr', chosen ? 'link' : '', ...columns.map((column) => {
         return element('td', column.isNumber ? 'number' : '', column.show(row));
       }));

@@ -2,7 +2,7 @@
 /* The figures of the rows by one of the values that are varied. */
 
 const Chart = (() => {
-  const PLOT = 220, TOP = 12, RIGHT = 16, TITLE = 20;
+  const LEAST_WIDTH = 50, PLOT = 220, TOP = 12, RIGHT = 16, TITLE = 20;
   const MOST_TICKS = 7;
   /* With more rows, marks are drawn together and have no texts of their own. */
   const MOST_TOLD = 3000;
@@ -114,20 +114,20 @@ const Chart = (() => {
     return `${whose} of the runs that finished${result}.`;
   }
 
-  /* A panel that is drawn anew when its width changes. */
+  /* A panel, and what draws its chart as wide as it is now. */
   function panel(k) {
     const all = Series.by(k);
     const box = element('div', 'chart-box');
     const made = element('section', 'panel', element('h2', '', `${Sweep.figure.title} by ${Sweep.names[k].title}`), Series.legend(all), box,
       element('p', 'muted notes-of-chart', notes()));
     let last = 0;
-    new ResizeObserver(() => {
-      const width = Math.min(box.clientWidth, 1100);
-      if (width < 50 || width === last) return;
+    const draw = () => {
+      const width = box.clientWidth;
+      if (width < LEAST_WIDTH || width === last) return;
       last = width;
       box.replaceChildren(drawn(k, all, width));
-    }).observe(box);
-    return made;
+    };
+    return { made, draw };
   }
 
   return { panel };

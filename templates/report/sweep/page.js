@@ -29,8 +29,12 @@
   byId('figures').append(...figures().map(([name, value]) =>
     element('div', 'figure', element('dt', '', name), element('dd', '', value))));
   byId('rows').append(RowTable.draw());
-  byId('charts').append(...varied.map(Chart.panel));
-  byId('charts').classList.toggle('one', varied.length === 1);
+  const charts = varied.map(Chart.panel);
+  byId('charts').append(...charts.map(({ made }) => made));
+  byId('charts').classList.toggle('one', charts.length === 1);
+  const draw = () => charts.forEach((chart) => chart.draw());
+  draw();
+  addEventListener('resize', draw);
 
   // Paper has no button that shows more.
   addEventListener('beforeprint', () => {
