@@ -144,6 +144,12 @@ const Figures = (() => {
     box.append(chart(times, what));
   }
 
+  /* The next number over this one that is easy to read. */
+  function nice(most) {
+    const unit = 10 ** Math.floor(Math.log10(most));
+    return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((n) => n * unit).find((n) => n >= most) || most;
+  }
+
   /* Bars: how many in each of some equal times, per hour. A line: how many so far. */
   function chart(times, what) {
     const [W, H, L, R, T, B] = [640, 250, 48, 48, 26, 30];

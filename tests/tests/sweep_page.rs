@@ -387,7 +387,7 @@ fn a_page_of_many_rows_is_shown() {
             notes: document.querySelector('.notes-of-chart').textContent,
         });
         document.body.append(found);";
-    let Some(found) = found("many", &by_number(&values, &figures), script) else { return };
+    let Some(found) = found("many-rows", &by_number(&values, &figures), script) else { return };
     assert!(text(&found, "figures").starts_with("rows140000"), "{found}");
     assert_eq!(found["rows"], 100);
     assert!(number(&found, "drawn") > ROWS as f64);
