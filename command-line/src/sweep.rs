@@ -7,6 +7,7 @@ pub mod axis;
 mod columns;
 mod design;
 mod distinct;
+mod facts;
 mod grid;
 mod head;
 mod in_order;
@@ -106,8 +107,8 @@ fn whole(plan: &Plan, options: &SweepOptions) -> Status {
         progress.count();
     });
     progress.clear();
-    let (status, rows) = rows.end();
-    match page.map_or(Ok(()), |page| page.write(plan, &rows)) {
+    let (status, table) = rows.end();
+    match page.zip(table).map_or(Ok(()), |(page, table)| page.write(plan, options, table)) {
         Ok(()) => status,
         Err(text) => {
             complain!("autogen: {text}");

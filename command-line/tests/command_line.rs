@@ -57,6 +57,8 @@ mod search_limits;
 mod side_by_side;
 #[path = "command_line/sweep.rs"]
 mod sweep;
+#[path = "command_line/sweep_page.rs"]
+mod sweep_page;
 #[path = "command_line/sweep_values.rs"]
 mod sweep_values;
 #[path = "command_line/tables.rs"]

@@ -6,8 +6,13 @@ const Figures = (() => {
   const percent = (part, whole) => `${((100 * part) / (whole || 1)).toFixed(1)} %`;
 
   function head() {
-    document.title = `${raw.name} – report`;
+    const facts = results.of_sweep || [];
+    const row = facts.length ? `, ${facts[0].join(' ')}` : '';
+    document.title = `${raw.name}${row} – report`;
     byId('name').textContent = raw.name;
+    byId('facts').append(...facts.map(([name, value]) =>
+      element('div', '', element('dt', '', name), element('dd', '', value))));
+    byId('facts').hidden = !facts.length;
     const verdict = byId('verdict');
     const { violation } = results;
     const found = violation ? `${violation.text}: at ${seconds(violation.at_s)} s; the run ends: ` : '';
@@ -137,6 +142,12 @@ const Figures = (() => {
     const perHour = (times.length / Data.endMs) * 3600000;
     box.append(element('p', '', `${times.length} ${what}, ${perHour.toFixed(1)} per hour over the whole run.`));
     box.append(chart(times, what));
+  }
+
+  /* The next number over this one that is easy to read. */
+  function nice(most) {
+    const unit = 10 ** Math.floor(Math.log10(most));
+    return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((n) => n * unit).find((n) => n >= most) || most;
   }
 
   /* Bars: how many in each of some equal times, per hour. A line: how many so far. */

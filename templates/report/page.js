@@ -27,11 +27,20 @@ function choosable(line, choose) {
 /* Rows that are shown at first. */
 const MOST_ROWS = 100;
 
-/* A table that is sorted by a click on a column. `columns`: name, what a cell shows, by what it is sorted; numbers stand to the right. */
+/* Numbers within texts are compared as numbers. */
+const TEXTS = new Intl.Collator('en', { numeric: true });
+
+/* Numbers before texts, and last what there is not. */
+function rank(value) {
+  if (value === null || value === undefined || Number.isNaN(value)) return 2;
+  return typeof value === 'number' ? 0 : 1;
+}
+
+/* A table that is sorted by a click on a column. `columns`: name, what it means, what a cell shows, by what it is sorted; numbers stand to the right. */
 function sortedTable(columns, rows, { chosen, first = 0, empty }) {
   if (!rows.length) return element('p', 'muted', empty);
   let by = first, isDown = false, most = MOST_ROWS;
-  const heads = columns.map(({ name, isNumber }, i) => {
+  const heads = columns.map(({ name, about, isNumber }, i) => {
     const button = element('button', 'plain', name);
     button.addEventListener('click', () => {
       [by, isDown] = [i, by === i ? !isDown : false];
@@ -39,6 +48,7 @@ function sortedTable(columns, rows, { chosen, first = 0, empty }) {
     });
     const head = element('th', isNumber ? 'number' : '', button);
     head.scope = 'col';
+    if (about) head.title = about;
     return head;
   });
   const body = element('tbody', ''), more = element('button', 'more');
@@ -46,22 +56,28 @@ function sortedTable(columns, rows, { chosen, first = 0, empty }) {
     most = Infinity;
     fill();
   });
-  const order = (a, b) => {
-    const [p, q] = [a, b].map(columns[by].sort || columns[by].show);
-    if (p === q) return 0;
-    if (p === null || p === undefined) return 1;
-    if (q === null || q === undefined) return -1;
-    return (typeof p === 'string' ? p.localeCompare(q, 'en', { numeric: true }) : p - q) * (isDown ? -1 : 1);
+  const order = (p, q) => {
+    const ranks = [rank(p), rank(q)];
+    if (ranks.includes(2)) return ranks[0] - ranks[1];
+    const difference = ranks[0] - ranks[1] || (ranks[0] ? TEXTS.compare(p, q) : p - q);
+    return isDown ? -difference : difference;
   };
+  function sorted() {
+    const key = columns[by].sort || columns[by].show;
+    return rows.map((row) => ({ row, key: key(row) })).sort((a, b) => order(a.key, b.key)).map(({ row }) => row);
+  }
   function fill() {
     heads.forEach((head, i) => head.setAttribute('aria-sort', i !== by ? 'none' : isDown ? 'descending' : 'ascending'));
-    body.replaceChildren(...[...rows].sort(order).slice(0, most).map((row) => {
+    // Not as arguments of a call: there may be more rows than a call can have.
+    const lines = document.createDocumentFragment();
+    for (const row of sorted().slice(0, most)) {
       const line = element('tr', chosen ? 'link' : '', ...columns.map((column) => {
         return element('td', column.isNumber ? 'number' : '', column.show(row));
       }));
       if (chosen) choosable(line, () => chosen(row));
-      return line;
-    }));
+      lines.append(line);
+    }
+    body.replaceChildren(lines);
     more.hidden = rows.length <= most;
     more.textContent = `show all ${rows.length} rows`;
   }
@@ -80,10 +96,4 @@ function svg(tag, attributes, text) {
   Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, value));
   if (text !== undefined) made.textContent = text;
   return made;
-}
-
-/* The next number over this one that is easy to read. */
-function nice(most) {
-  const unit = 10 ** Math.floor(Math.log10(most));
-  return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((n) => n * unit).find((n) => n >= most) || most;
 }

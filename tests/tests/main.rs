@@ -63,6 +63,7 @@ mod stacking;
 mod stepping;
 mod strokes;
 mod structured_text;
+mod sweep_page;
 mod table1;
 mod texts;
 mod traces;

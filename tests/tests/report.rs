@@ -25,13 +25,19 @@ struct Run {
 }
 
 fn run(texts: &Texts) -> Run {
+    run_told(texts, |_| {})
+}
+
+/// The same, with more that is told of it.
+fn run_told(texts: &Texts, tell: impl Fn(&mut Value)) -> Run {
     let outcome = texts.compile();
     let project = outcome.project.expect("a line that is right");
     let (line, mut executor) = (&project.plant, Executor::new(&project.system));
     let watched = report::watched(&project.system, line);
     let ignore = &mut |_: &Seen| {};
     let recorded = record(line, &mut executor, Stepping::Events, &watched, ignore).expect("a run");
-    let results: Value = serde_json::from_str(&recorded.report.to_json()).expect("JSON");
+    let mut results: Value = serde_json::from_str(&recorded.report.to_json()).expect("JSON");
+    tell(&mut results);
     let page = report::html(&project, &outcome.sources, line, &recorded, &results);
     let items: Vec<usize> = (0..item::Names::new(line).all().len()).collect();
     let table = table_csv(line, &recorded.paths, &items, EVERY_MS);
@@ -229,6 +235,19 @@ fn text_of_a_specification_is_never_markup() {
     assert_eq!(found["images"], 0);
     let text = found["inspector"].as_str().expect("a text");
     assert!(text.contains(hostile), "{text}");
+}
+
+#[test]
+fn a_run_of_a_sweep_says_which_one_it_is() {
+    let Some(browser) = browser::browser() else { return };
+    let facts = json!([["row of the sweep", "2"], ["point", "layout <b>, speed 4"], ["seed", "7"]]);
+    let run = run_told(&side_by_side("scenes/lifting_table"), |results| results["of_sweep"] = facts.clone());
+    let script = format!("const TIMES = [0];\n{}", include_str!("../fixtures/report/driver.js"));
+    let found = browser::found(browser, "of-sweep", &run.page, &script);
+    let found: Value = serde_json::from_str(&found).expect("JSON");
+    assert_eq!(found["errors"], Value::Array(Vec::new()));
+    assert_eq!(found["facts"], "row of the sweep2pointlayout <b>, speed 4seed7");
+    assert!(found["title"].as_str().is_some_and(|title| title.ends_with(", row of the sweep 2 – report")));
 }
 
 /// Nothing is fetched, and nothing that could be is named.

@@ -90,6 +90,14 @@ impl Design {
         Point { layout: digit(self.layouts.len()), values, order, delay }
     }
 
+    /// Where a point is in the list of each of [`super::page::names`].
+    pub fn indices(&self, point: &Point) -> Vec<usize> {
+        let orders = (!self.orders.is_empty()).then_some(point.order);
+        let delays = (!self.delays.is_empty()).then_some(point.delay);
+        let values = point.values.iter().copied();
+        [point.layout].into_iter().chain(values).chain(orders).chain(delays).collect()
+    }
+
     /// Whether rows are means of several runs.
     pub fn has_means(&self) -> bool {
         self.replications > 1

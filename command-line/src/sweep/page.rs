@@ -1,12 +1,13 @@
 //! The options `--report` and `--keep`: the page of a sweep, and those of some of its runs.
 
 use super::super::interrupt;
+use super::super::options::SweepOptions;
 use super::super::pending::{self, Content, Foreign, Pending};
-use super::design::{Design, RunNumber};
+use super::axis::Axis;
+use super::design::{Asked, Design, RunNumber};
 use super::plan::Plan;
-use super::point;
-use autogen::backend::report::sweep::{self, Name};
-use serde_json::Value;
+use super::{facts, point};
+use autogen::backend::report::sweep::{Figure, Name, Sweep, Table, Values};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -57,10 +58,10 @@ impl Request {
     }
 
     /// Runs again what is to be kept, and writes all pages.
-    pub fn write(self, plan: &Plan, rows: &[Value]) -> Result<(), String> {
+    pub fn write(self, plan: &Plan, options: &SweepOptions, table: Table) -> Result<(), String> {
         let folder = folder(self.file.path());
         let mut kept = BTreeMap::new();
-        for row in (1..=rows.len()).filter(|row| self.keeps(*row)) {
+        for row in (1..=table.rows.len()).filter(|row| self.keeps(*row)) {
             // A point that was refused has its reason in the table.
             let Ok(page) = point::page(plan, RunNumber { point: row - 1, replication: 0 }) else { continue };
             fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -70,7 +71,19 @@ impl Request {
             file.keep()?;
             kept.insert(row, format!("{}/{}", encoded(&folder), name_of(row)));
         }
-        self.file.write(&sweep::html(&names(&plan.design), rows, &kept))?;
+        let sweep = Sweep {
+            title: facts::title(&plan.design),
+            facts: facts::of_sweep(plan, options),
+            figure: match plan.design.asked {
+                Asked::Orders => Figure::SecondsPerOrder,
+                Asked::Items => Figure::SecondsUntilGoal,
+                Asked::Throughput => Figure::ItemsPerHour,
+            },
+            names: names(&plan.design),
+            table,
+            kept,
+        };
+        self.file.write(&sweep.html())?;
         let _writing = interrupt::writing();
         self.file.keep()
     }
@@ -100,9 +113,27 @@ fn encoded(folder: &Path) -> String {
     format!("./{address}")
 }
 
-fn names(design: &Design) -> Vec<Name> {
-    let axes = design.axes.iter().map(|axis| Name::Set(axis.name.clone()));
-    let orders = (!design.orders.is_empty()).then_some(Name::Of("order_seed"));
-    let delays = (!design.delays.is_empty()).then_some(Name::Of("io_delay"));
-    [Name::Of("layout")].into_iter().chain(axes).chain(orders).chain(delays).collect()
+/// What names the rows, in the order of the table's columns.
+pub fn names(design: &Design) -> Vec<Name> {
+    let name = |title: &str, values| Name { title: title.into(), values };
+    let layouts = name("layout", Values::Words(design.layouts.clone()));
+    let axes = design.axes.iter().map(|axis| name(&axis.name, values(axis)));
+    let seeds = || Values::Words(design.orders.iter().map(u64::to_string).collect());
+    let orders = (!design.orders.is_empty()).then(|| name("order_seed", seeds()));
+    let delays = (!design.delays.is_empty()).then(|| name("io_delay", numbers_or_words(&design.delays)));
+    [layouts].into_iter().chain(axes).chain(orders).chain(delays).collect()
+}
+
+/// A seed is a number that measures nothing.
+fn values(axis: &Axis) -> Values {
+    match axis.name.rsplit_once('.') {
+        Some((_, "seed")) => Values::Words(axis.values.clone()),
+        _ => numbers_or_words(&axis.values),
+    }
+}
+
+fn numbers_or_words(values: &[String]) -> Values {
+    let is_number = |text: &String| text.parse().is_ok_and(f64::is_finite);
+    let of = if values.iter().all(is_number) { Values::Numbers } else { Values::Words };
+    of(values.to_vec())
 }

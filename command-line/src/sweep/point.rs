@@ -4,6 +4,7 @@ use super::super::controllers::{Controllers, Notice};
 use super::super::print;
 use super::super::results::results;
 use super::design::{Point, RunNumber};
+use super::facts;
 use super::outcome::Outcome;
 use super::plan::{Made, Plan};
 use crate::Status;
@@ -13,6 +14,7 @@ use autogen::fault::reason_of_run;
 use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::memory::Memory;
 use runtime_sim::run::{Seen, Stepping, record_again, run_again};
+use serde_json::json;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
@@ -63,7 +65,9 @@ pub fn page(plan: &Plan, number: RunNumber) -> Result<String, String> {
             record_again(&plant, &mut controllers, Stepping::Events, memory, &watched, ignore)
         };
         let recorded = line.remembering(run).map_err(End::NoReport)?;
-        let results = results(&recorded.report, project, &line.shown).map_err(End::NoReport)?;
+        let mut results = results(&recorded.report, project, &line.shown).map_err(End::NoReport)?;
+        let facts = facts::of_run(plan, number, plant.scenario.seed);
+        results["of_sweep"] = facts.iter().map(|fact| json!([fact.name, fact.value])).collect();
         Ok(report::html(project, &line.shown, &plant, &recorded, &results))
     }));
     match made {

@@ -1,11 +1,12 @@
 //! Runs, taken in order, become rows.
 
+use super::columns::Columns;
 use super::design::{Asked, Design, Point, RunNumber};
 use super::interval::Sample;
 use super::outcome::Outcome;
 use super::table::Table;
 use crate::Status;
-use serde_json::Value;
+use autogen::backend::report::sweep as page;
 
 /// What came of one point.
 pub struct Row {
@@ -47,6 +48,23 @@ impl Row {
             cut_orders: None,
             items_per_hour: None,
             differences: Sample::default(),
+        }
+    }
+
+    /// `columns` are those of this row.
+    pub fn on_page(&self, design: &Design, columns: &[Columns]) -> page::Row {
+        let help = self.outcome.diagnostics[0]["help"].as_str().map(|help| format!("help: {help}"));
+        let notes = self.outcome.notes.iter().map(|note| format!("note: {note}"));
+        page::Row {
+            at: design.indices(&self.point),
+            cells: columns.iter().flat_map(|columns| &columns.texts).map(|text| text.cell.clone()).collect(),
+            reason: self.outcome.reason.clone(),
+            remarks: help.into_iter().chain(notes).collect(),
+            runs: self.runs,
+            finished_runs: self.finished_runs,
+            measured_runs: self.measured_runs,
+            figure: self.figure,
+            half_width: self.half_width,
         }
     }
 }
@@ -122,6 +140,8 @@ pub struct Rows<'a> {
     pub status: Status,
     /// Points whose runs are over before their figure is as precise as it should be.
     imprecise: usize,
+    /// Runs that did not finish and their points, where the runs go on until a precision.
+    left_out: (usize, usize),
     /// Runs of which the warm-up leaves no order, and their points.
     cut_whole: (usize, usize),
 }
@@ -136,6 +156,7 @@ impl<'a> Rows<'a> {
             first: Vec::new(),
             status: Status::Done,
             imprecise: 0,
+            left_out: (0, 0),
             cut_whole: (0, 0),
         }
     }
@@ -182,6 +203,11 @@ impl<'a> Rows<'a> {
     }
 
     fn put(&mut self, row: &Row) {
+        let left_out = row.runs as usize - row.finished_runs;
+        if self.design.precision.is_some() && row.finished_runs > 0 && left_out > 0 {
+            self.left_out.0 += left_out;
+            self.left_out.1 += 1;
+        }
         // Layouts without orders have no figure either, and nothing is cut of them.
         let cut_whole = row.finished_runs - row.measured_runs;
         if cut_whole > 0 && row.cut_orders.is_some_and(|cut| cut > 0.0) {
@@ -201,13 +227,20 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// What all runs came to, and the rows as JSON, if the table keeps them.
-    pub fn end(self) -> (Status, Vec<Value>) {
-        let rows = self.table.end();
+    /// What all runs came to, and the table of a page, if one is kept.
+    pub fn end(self) -> (Status, Option<page::Table>) {
+        let kept = self.table.end();
         if self.imprecise > 0 {
             let (points, runs) = (self.imprecise, self.design.replications);
             let points = counted(points, "point has", "points have");
             complain!("{points} not reached the precision in {runs} runs");
+        }
+        if let (runs @ 1.., points) = self.left_out {
+            let (runs, points) = (counted(runs, "run", "runs"), counted(points, "point", "points"));
+            complain!(
+                "{runs} of {points} did not finish: a precision is that of the runs that did, and a time limit makes \
+                 their mean mostly too small"
+            );
         }
         if let (runs @ 1.., points) = self.cut_whole {
             let (runs, points) = (counted(runs, "run", "runs"), counted(points, "point", "points"));
@@ -215,7 +248,7 @@ impl<'a> Rows<'a> {
                 "the warm-up leaves no order of {runs} of {points}: they are in no mean; cut less, or make more orders"
             );
         }
-        (self.status, rows)
+        (self.status, kept)
     }
 }
 

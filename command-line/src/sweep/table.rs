@@ -1,12 +1,13 @@
 //! Rows on standard output, as they come.
 
 use super::super::options::{TableFormat, TableOptions};
-use super::columns::{Columns, seconds};
+use super::columns::Columns;
 use super::design::{Asked, Design};
 use super::grid::Grid;
 use super::measured::{Beside, Measured};
 use super::plan::Refusal;
 use super::rows::Row;
+use autogen::backend::report::sweep as page;
 use autogen::csv;
 use serde_json::{Value, json};
 
@@ -19,8 +20,8 @@ pub struct Table<'a> {
     names: Vec<Name<'a>>,
     grid: Option<Grid>,
     measured: Option<Measured>,
-    /// The rows so far, if they are wanted again.
-    kept: Option<Vec<Value>>,
+    /// The rows so far, if a page is made of them.
+    kept: Option<page::Table>,
     noted: Noted,
 }
 
@@ -88,9 +89,17 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// Its rows can be had when it has ended.
+    /// It has the table of a page when it has ended.
     pub fn keeping(self) -> Self {
-        Self { kept: Some(Vec::new()), ..self }
+        let columns = self.columns(&Row::empty(self.design), self.empty_beside());
+        let columns = columns.into_iter().flat_map(|columns| columns.texts);
+        let columns = columns.map(|text| page::Column { title: text.title_on_page, about: text.about });
+        let table = page::Table { columns: columns.collect(), rows: Vec::new() };
+        Self { kept: Some(table), ..self }
+    }
+
+    fn empty_beside(&self) -> Option<Beside> {
+        self.measured.as_ref().map(|_| Beside::default())
     }
 
     /// Whether its rows say what they differ from the first.
@@ -100,12 +109,11 @@ impl<'a> Table<'a> {
 
     /// Those that are asked for. `beside` is there if there are figures from elsewhere.
     fn columns(&self, row: &Row, beside: Option<Beside>) -> Vec<Columns> {
-        let mut columns = Vec::new();
-        match self.design.asked {
-            Asked::Orders => {}
-            Asked::Items => columns.push(Columns::of_goal(row)),
-            Asked::Throughput => columns.push(Columns::of_throughput(row)),
-        }
+        let mut columns = vec![match self.design.asked {
+            Asked::Orders => Columns::of_orders(row),
+            Asked::Items => Columns::of_goal(row),
+            Asked::Throughput => Columns::of_throughput(row),
+        }];
         if self.design.has_means() {
             columns.push(Columns::of_runs(row));
         }
@@ -116,12 +124,12 @@ impl<'a> Table<'a> {
             columns.push(Columns::of_comparison(row));
         }
         columns.extend(beside.map(Columns::of_measured));
+        columns.push(Columns::of_time(row));
         columns
     }
 
     pub fn begin(&self) {
-        let beside = self.measured.as_ref().map(|_| Beside::default());
-        let columns = self.columns(&Row::empty(self.design), beside);
+        let columns = self.columns(&Row::empty(self.design), self.empty_beside());
         match self.format {
             TableFormat::Json => say_part!("{{\"rows\":["),
             TableFormat::Csv => {
@@ -131,17 +139,11 @@ impl<'a> Table<'a> {
                 say!("{}", names.chain(values).map(csv::field).collect::<Vec<_>>().join(","));
             }
             TableFormat::Text if !self.quiet => {
-                let figures = match self.design.asked {
-                    Asked::Orders => format!("{:>11}  {:>9}", "orders", "s/order"),
-                    Asked::Items => format!("{:>11}  {:>8}  {:>9}", "items", "items/h", "goal at s"),
-                    Asked::Throughput => format!("{:>11}  {:>8}", "items", "items/h"),
-                };
-                let simulated = "simulated";
                 let names = self.text(|name| name.title.into());
                 let more: String = (columns.iter().flat_map(|columns| &columns.texts))
-                    .map(|(title, width, _)| format!("  {title:>width$}"))
+                    .map(|text| format!("  {:>width$}", text.title, width = text.width))
                     .collect();
-                say!("{names}  {figures}{more}  {simulated:>12}  reason");
+                say!("{names}{more}  reason");
             }
             TableFormat::Text | TableFormat::Jsonl => {}
         }
@@ -154,11 +156,10 @@ impl<'a> Table<'a> {
             self.noted.first.get_or_insert_with(|| (cells.join(" "), note.clone()));
         }
         let beside = self.beside(row);
-        if self.kept.is_some() {
-            let json = self.json(row, self.columns(row, beside));
-            self.kept.iter_mut().for_each(|kept| kept.push(json.clone()));
-        }
         let columns = self.columns(row, beside);
+        if let Some(kept) = &mut self.kept {
+            kept.rows.push(row.on_page(self.design, &columns));
+        }
         match self.format {
             TableFormat::Json => {
                 let before = if self.rows == 0 { "\n" } else { ",\n" };
@@ -176,27 +177,11 @@ impl<'a> Table<'a> {
             }
             TableFormat::Text if self.quiet && row.outcome.finished => {}
             TableFormat::Text => {
-                let outcome = &row.outcome;
                 let point = self.text(|name| (name.cell)(row));
-                let of =
-                    |done: u64, all: Option<u64>| all.map_or("-".into(), |all| format!("{done} of {all}"));
-                let per_hour = row.items_per_hour.map_or("-".into(), |n| format!("{n:.1}"));
-                let figures = match self.design.asked {
-                    Asked::Orders => {
-                        let orders = of(outcome.orders_done, outcome.orders);
-                        format!("{orders:>11}  {:>9}", seconds(outcome.seconds_per_order))
-                    }
-                    Asked::Throughput => format!("{:>11}  {per_hour:>8}", outcome.items),
-                    Asked::Items => {
-                        let items = of(outcome.items, outcome.items_asked);
-                        format!("{items:>11}  {per_hour:>8}  {:>9}", seconds(row.figure))
-                    }
-                };
-                let simulated = seconds(outcome.simulated_s);
                 let more: String = (columns.iter().flat_map(|columns| &columns.texts))
-                    .map(|(_, width, cell)| format!("  {cell:>width$}"))
+                    .map(|text| format!("  {:>width$}", text.cell, width = text.width))
                     .collect();
-                say!("{point}  {figures}{more}  {simulated:>12}  {}", outcome.reason);
+                say!("{point}{more}  {}", row.outcome.reason);
             }
         }
         if let Some(grid) = &mut self.grid {
@@ -205,8 +190,8 @@ impl<'a> Table<'a> {
         self.rows += 1;
     }
 
-    /// The rows as JSON, if it was [`Self::keeping`] them.
-    pub fn end(self) -> Vec<Value> {
+    /// The table of a page, if it was [`Self::keeping`] one.
+    pub fn end(self) -> Option<page::Table> {
         let rms = self.measured.as_ref().and_then(Measured::rms);
         if self.format == TableFormat::Json {
             let rms = rms.map_or_else(String::new, |(rms, _)| format!(",\"rms\":{}", json!(rms)));
@@ -227,7 +212,7 @@ impl<'a> Table<'a> {
         if let Some(unused) = self.measured.as_ref().and_then(Measured::unused) {
             complain!("{unused}");
         }
-        self.kept.unwrap_or_default()
+        self.kept
     }
 
     /// What the measured figures say of a row's point; none without such figures.

@@ -10,7 +10,7 @@ const SCENARIO: &str = r#"{"kinds": [{"name": "battery", "height": 0.053}],
     "orders": {"count": 1, "parts": {"battery": 1}}}"#;
 
 /// The data of a page.
-fn data(page: &str) -> Value {
+pub fn data(page: &str) -> Value {
     let (_, rest) = page.split_once("id=\"data\">").expect("the data");
     serde_json::from_str(rest.split_once("</script>").expect("their end").0).expect("JSON")
 }
@@ -93,10 +93,13 @@ fn a_sweep_has_a_report_that_links_the_runs_that_are_kept() {
     assert_eq!(output.stdout, run(&[]).stdout, "the table is the same");
     let page = data(&fs::read_to_string(folder.join("all pages.html")).expect("a report"));
     let expected = rows(&output);
-    for (number, (shown, row)) in page["rows"].as_array().expect("rows").iter().zip(&expected).enumerate() {
-        assert_eq!(shown["row"], number + 1);
-        assert_eq!(shown["seconds_per_order"], row["seconds_per_order"]);
-        assert_eq!(shown["set"], row["set"]);
+    let shown = page["rows"].as_array().expect("rows");
+    assert_eq!(shown.len(), expected.len());
+    assert_eq!(page["names"][1]["title"], "agv.capacity");
+    for (number, (shown, row)) in shown.iter().zip(&expected).enumerate() {
+        assert_eq!(shown["at"], serde_json::json!([0, number]));
+        assert_eq!(shown["figure"], row["seconds_per_order"]);
+        assert_eq!(page["names"][1]["values"][number], row["set"]["agv.capacity"].to_string());
     }
     assert_eq!(page["kept"], serde_json::json!({ "2": "./all%20pages-runs/row-2.html" }));
     let kept = data(&fs::read_to_string(folder.join("all pages-runs/row-2.html")).expect("a report"));

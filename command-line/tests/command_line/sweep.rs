@@ -401,7 +401,7 @@ fn of_a_goal_of_items_rows_have_the_time_until_it_and_the_items() {
         assert!((row["items_per_hour"].as_f64().expect("a number") - per_hour).abs() < 1e-9);
     }
     let page = fs::read_to_string(folder.join("page.html")).expect("a page");
-    assert!(page.contains("\"Seconds until the goal\"") && page.contains("\"goal_s\":"));
+    assert!(page.contains("\"Seconds until the goal\"") && page.contains("\"goal at s\""));
 
     let text = printed(&sweep(&[]));
     let head = text.lines().next().expect("a line");
@@ -485,6 +485,7 @@ fn without_orders_and_a_goal_rows_have_the_items_of_an_hour() {
     assert!(found[0]["items_per_hour"].as_f64() > found[1]["items_per_hour"].as_f64(), "{found:?}");
     let page = fs::read_to_string(folder.join("page.html")).expect("a page");
     assert!(page.contains("\"Items per hour\"") && page.contains("\"greatest\""));
+    assert!(page.contains("\"title\":\"items\"") && !page.contains("\"title\":\"orders\""));
     let text = printed(&sweep(&[]));
     let head = text.lines().next().expect("a line");
     assert!(head.contains("      items   items/h      +-       runs     simulated  reason"), "{text}");

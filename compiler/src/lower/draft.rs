@@ -193,6 +193,11 @@ impl Draft {
         self.items
     }
 
+    /// The seed of the scenario, if no setting gives another; not known of a draft with errors.
+    pub fn seed(&self) -> Option<u32> {
+        self.parts.as_ref().map(|parts| parts.scenario.supply.seed)
+    }
+
     /// Whether a setting is of the scenario's supply; not known of a draft with errors.
     pub fn is_of_supply(&self, setting: &Setting) -> bool {
         self.parts.as_ref().is_some_and(|parts| {
