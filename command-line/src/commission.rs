@@ -66,8 +66,9 @@ struct Requested {
 
 fn commission(options: &CommissionOptions) -> Result<Status, End> {
     let begin = Instant::now();
-    let delay = io_delay(&options.io_delay)
-        .ok_or_else(|| "--io-delay takes a number of scans, `random` or `random:SEED`".to_string())?;
+    let delay = io_delay(&options.io_delay).ok_or_else(|| {
+        "--io-delay takes a number of scans up to 1000, `random` or `random:SEED`".to_string()
+    })?;
     are_different(options)?;
     let overwrite = options.build.overwrite();
     let pending = |path: &Option<PathBuf>, content: Content| {

@@ -248,7 +248,7 @@ pub struct SweepOptions {
     pub report: Option<PathBuf>,
     /// Rows whose runs are kept as pages, with links in the report: numbers from 1 such as 1,4, or `all`. With
     /// several replications, the first one is kept. The pages are in a folder next to the report
-    #[arg(long, value_name = "ROWS", requires = "report")]
+    #[arg(long, value_name = "ROWS", requires = "report", conflicts_with = "part")]
     pub keep: Option<String>,
     /// Number of runs at the same time; default: one for each processor
     #[arg(short, long, value_name = "N", value_parser = jobs)]

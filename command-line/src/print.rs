@@ -10,14 +10,26 @@ use autogen::plain;
 use autogen::source::Sources;
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Somebody waits for a file, whether or not standard output is read.
+static GOES_ON: AtomicBool = AtomicBool::new(false);
+
+/// From now on the program goes on where the reader of standard output has enough.
+pub fn go_on_without_reader() {
+    GOES_ON.store(true, Ordering::Relaxed);
+}
 
 /// Writes to standard output, as escapes what a terminal would obey. A reader that has enough ends the program
-/// quietly.
+/// quietly, if nobody waits for a file.
 pub fn out(text: std::fmt::Arguments) {
     let text = text.to_string();
     let bytes = plain::escaped(&text);
     if let Err(error) = io::stdout().write_all(bytes.as_bytes()).and_then(|()| io::stdout().flush()) {
         if error.kind() == io::ErrorKind::BrokenPipe {
+            if GOES_ON.load(Ordering::Relaxed) {
+                return;
+            }
             interrupt::abandon();
             std::process::exit(Status::Done as i32);
         }

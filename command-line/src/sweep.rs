@@ -82,6 +82,9 @@ fn whole(plan: &Plan, options: &SweepOptions) -> Status {
         Ok(page) => page,
         Err(text) => return not_planned(&options.table, &Refusal::Said(text)),
     };
+    if page.is_some() {
+        print::go_on_without_reader();
+    }
     let mut rows = match Table::new(&plan.design, &options.table) {
         Ok(table) if page.is_some() => Rows::new(&plan.design, table.keeping()),
         Ok(table) => Rows::new(&plan.design, table),

@@ -82,8 +82,8 @@ pub fn scan(seconds: &str, scan_ms: u32) -> Option<u64> {
 }
 
 fn question(options: &WhyOptions, project: &Project) -> Result<Question, String> {
-    let delay =
-        io_delay(&options.io_delay).ok_or("--io-delay takes a number of scans, `random` or `random:SEED`")?;
+    let delay = io_delay(&options.io_delay)
+        .ok_or("--io-delay takes a number of scans up to 1000, `random` or `random:SEED`")?;
     let at = options.at.as_ref().map(|text| {
         scan(text, project.plant.scan_ms)
             .ok_or_else(|| format!("--at {text}: it takes seconds of the run, such as 120.5"))

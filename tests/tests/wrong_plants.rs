@@ -1,6 +1,6 @@
 //! Machines that cannot be: each mistake is one error with its code, its place, the facts and what helps.
 
-use autogen_tests::Texts;
+use autogen_tests::{Texts, own_line};
 
 /// What a layout with one machine is told, with its place as line and column.
 fn told(device: &str, kinds: &str) -> Vec<String> {

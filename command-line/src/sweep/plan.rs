@@ -85,7 +85,9 @@ impl Plan {
         let mut delays = Vec::new();
         for text in &options.io_delay {
             let delay = io_delay(text).ok_or_else(|| {
-                Refusal::Said("--io-delay takes numbers of scans, `random` or `random:SEED`".into())
+                Refusal::Said(
+                    "--io-delay takes numbers of scans up to 1000, `random` or `random:SEED`".into(),
+                )
             })?;
             delays.push(delay);
         }
@@ -116,6 +118,12 @@ impl Plan {
         if asked != Asked::Orders && options.warm_up.is_some() {
             return Err(Refusal::Said(
                 "--warm-up cuts orders, and these scenarios have none: their figure is of items that sinks collect".into(),
+            ));
+        }
+        if asked != Asked::Orders && options.table.beside.is_some() {
+            return Err(Refusal::Said(
+                "--beside compares seconds per order, and these scenarios have none: their figure is of items that sinks collect"
+                    .into(),
             ));
         }
         let design = Design {

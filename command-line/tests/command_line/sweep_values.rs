@@ -112,3 +112,45 @@ fn the_table_of_the_manual_is_what_its_command_prints() {
     let printed = printed(&output);
     assert!(printed.starts_with(table), "{printed}\n{table}");
 }
+
+#[test]
+fn figures_of_orders_do_not_stand_beside_those_of_items() {
+    let folder = folder("sweep_beside_items");
+    fs::write(folder.join("here.csv"), "layout,mill.cut,seconds_per_order\ntending,30,2000\n")
+        .expect("a file");
+    let layout = example("tending/tending.json");
+    let arguments = ["sweep", &layout, "--set", "mill.cut=30", "--beside", "here.csv"];
+    let output = autogen(&folder, &arguments);
+    assert_eq!(status(&output), 2);
+    assert!(errors(&output).contains("--beside compares seconds per order"), "{}", errors(&output));
+}
+
+#[test]
+fn values_that_no_comma_separates_are_told_so() {
+    let folder = folder("sweep_no_comma");
+    let layout = example("ariac2021/default.json");
+    for values in ["agv.capacity=2;4", "agv.capacity=2:8:2"] {
+        let output = autogen(&folder, &["sweep", &layout, "--set", values]);
+        assert_eq!(status(&output), 2, "{values}");
+        assert!(errors(&output).contains("are separated by commas"), "{values}: {}", errors(&output));
+    }
+}
+
+/// Somebody waits for the page, whether or not the table is read.
+#[cfg(unix)]
+#[test]
+fn a_page_is_written_where_nobody_reads_the_table() {
+    let folder = folder("sweep_no_reader");
+    let tool = env!("CARGO_BIN_EXE_autogen");
+    let layout = example("tending/tending.json");
+    let sweep =
+        format!("'{tool}' sweep '{layout}' --set mill.cut=30,60 --report page.html; echo $? > status");
+    let output = Command::new("sh")
+        .args(["-c", &format!("({sweep}) | true")])
+        .current_dir(&folder)
+        .output()
+        .expect("a shell");
+    assert_eq!(errors(&output), "");
+    assert_eq!(fs::read_to_string(folder.join("status")).expect("a file"), "0\n");
+    assert!(folder.join("page.html").exists());
+}

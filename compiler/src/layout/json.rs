@@ -48,12 +48,16 @@ pub fn parse(text: &str, file: FileId) -> (Option<Json>, Vec<Diagnostic>) {
     let value = reader.value(&"a value");
     reader.space();
     if !reader.stopped() && reader.at < text.len() {
-        let place = reader.span(reader.at);
-        reader.report(
-            Diagnostic::new("E0108", place, "there is text after the end of the JSON value")
+        let found =
+            Diagnostic::new("E0108", reader.span(reader.at), "there is text after the end of the JSON value");
+        let is_object = value.as_ref().is_none_or(|value| matches!(value.value, Value::Object(_)));
+        reader.report(if is_object {
+            found
                 .note("a file has one value, here one object in braces")
-                .help("remove the text, or the brace before it if the object was closed too early"),
-        );
+                .help("remove the text, or the brace before it if the object was closed too early")
+        } else {
+            found.help("remove the text; several values of an option are separated by commas")
+        });
     }
     (value.filter(|_| reader.complete), reader.diagnostics)
 }
