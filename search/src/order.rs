@@ -218,7 +218,7 @@ impl Expander<'_> {
             let (mut result, mark) = self.on(&mut end, |scan| {
                 let result = scan.finish(touched);
                 scan.ask_starts();
-                (result, scan.mark(touched))
+                (result, scan.mark())
             });
             if let Err(stop @ Violation::Stop { .. }) = result {
                 let stopped = Stopped::new(self.model, &end.bytes, mark);

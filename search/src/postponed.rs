@@ -466,9 +466,9 @@ impl Expander<'_> {
                 }
             }
             let forgotten = self.model.unread.in_state(&self.model.instances, &state, u64::MAX);
-            let Mark { touched, written, .. } = stopped.mark;
+            let Mark { written, .. } = stopped.mark;
             let written = written | Cells { owners: ended, columns: u64::MAX };
-            let mark = Mark { forgotten, touched: touched | ended, written };
+            let mark = Mark { forgotten, written };
             let (other, read) = self.behind_stop(&Stopped { state, mark });
             let more = read & waiting & !asked;
             if other != *found || (asked | more).count_ones() > MOST_ASKED {

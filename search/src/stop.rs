@@ -7,8 +7,8 @@ use crate::successor::Expander;
 use crate::violation::Violation;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// A line that stops in so many scans one after another, in another state each time, is not followed any further.
-const MOST_STOPS: usize = 256;
+/// So many scans behind a stop are looked at: a line that stops in as many, one after another, does so for ever.
+const MOST_SCANS: usize = 256;
 
 /// The state in which a scan has ended in a stop. What the operator does may change inputs of devices: they are open.
 #[derive(Clone, PartialEq, Eq, Hash)]
@@ -22,8 +22,6 @@ pub(crate) struct Stopped {
 pub(crate) struct Mark {
     /// What of its state is forgotten.
     pub forgotten: u128,
-    /// Instances that may do something in the next scan, or whose properties were due.
-    pub touched: u64,
     /// Values that have changed, and their owners.
     pub written: Cells,
 }
@@ -36,15 +34,15 @@ impl Stopped {
     pub fn new(model: &Model, state: &[u8], mark: Mark) -> Self {
         let mut state = state.to_vec();
         model.open_inputs(&mut state);
+        model.reset(&mut state);
         Self { state, mark }
     }
 }
 
 impl Scan<'_> {
-    /// `touched`: those with which the scan has begun.
-    pub(crate) fn mark(&self, touched: u64) -> Mark {
-        let Self { forgotten, fired, written, restless, .. } = *self;
-        Mark { forgotten, touched: touched | fired | restless, written }
+    pub(crate) fn mark(&self) -> Mark {
+        let Self { forgotten, written, .. } = *self;
+        Mark { forgotten, written }
     }
 }
 
@@ -67,53 +65,69 @@ impl Expander<'_> {
     }
 
     /// What is wrong once an operator has come, for whom the line has stopped in this state, while no device does anything:
-    /// it stops again in each scan, or in a fault.
+    /// whatever sensors show, it stops again until it is in a state in which it has stopped before; or a fault.
     /// The second result is what its scans read of what is postponed.
     pub(crate) fn behind_stop(&mut self, stopped: &Stopped) -> (Option<Violation>, u64) {
-        let work = std::mem::replace(&mut self.work, stopped.state.clone());
+        // Whether a machine that is stopped by itself goes on is not searched.
+        if self.model.any_stands(&stopped.state) {
+            return (None, 0);
+        }
+        let (work, first) = (std::mem::take(&mut self.work), std::mem::take(&mut self.before));
         let (choices, told) = (std::mem::take(&mut self.choices), self.told.clone());
         let (noted, remarked) = (self.noted.len(), self.remarked.len());
         let order = std::mem::take(&mut self.order);
-        let first = self.before.clone();
         let first_forgotten = (self.forgotten, self.forgotten_before);
-        let mut mark = stopped.mark;
-        let (mut found, mut read) = (None, 0);
-        let mut stops: FxHashSet<Vec<u8>> = FxHashSet::default();
-        for _ in 0..MOST_STOPS {
-            self.model.open_inputs(&mut self.work);
-            self.model.reset(&mut self.work);
-            if !stops.insert(self.work.clone()) {
-                found = Some(Violation::StopsAgain);
-                break;
-            }
-            self.before.clone_from(&self.work);
-            self.forgotten = mark.forgotten;
-            self.forgotten_before = mark.forgotten;
-            self.choices.clear();
-            let mut scan = self.begin();
-            scan.written = mark.written;
-            scan.is_reset = true;
-            let result = scan.run(&order, u64::MAX);
-            scan.ask_starts();
-            mark = scan.mark(u64::MAX);
-            read |= scan.observed;
-            if let Err(Violation::Fault { instance, fault }) = result
-                && self.choices.is_empty()
-                && !self.model.sensed[fault]
-            {
-                found = Some(Violation::FaultBehindStop { instance, fault });
-            }
-            let goes_on = |fault: usize| self.model.sensed[fault] || !self.choices.is_empty();
-            if !matches!(result, Err(Violation::Stop { fault }) if !goes_on(fault)) {
-                break;
-            }
-        }
-        self.before = first;
+        let mut read = 0;
+        let found = self.stops_again(stopped, &order, &mut read);
         (self.forgotten, self.forgotten_before) = first_forgotten;
         self.noted.truncate(noted);
         self.remarked.truncate(remarked);
         self.order = order;
-        (self.work, self.choices, self.told) = (work, choices, told);
+        (self.work, self.before, self.choices, self.told) = (work, first, choices, told);
         (found, read)
+    }
+
+    fn stops_again(&mut self, stopped: &Stopped, order: &[usize], read: &mut u64) -> Option<Violation> {
+        let mut known: FxHashSet<Vec<u8>> = FxHashSet::default();
+        let mut open = vec![(stopped.state.clone(), stopped.mark)];
+        let (mut scans, mut has_chosen) = (0, false);
+        while let Some((mut state, mark)) = open.pop() {
+            self.model.open_inputs(&mut state);
+            self.model.reset(&mut state);
+            if !known.insert(state.clone()) {
+                continue;
+            }
+            self.choices.clear();
+            loop {
+                if scans == MOST_SCANS {
+                    return (!has_chosen).then_some(Violation::StopsAgain);
+                }
+                scans += 1;
+                self.work.clone_from(&state);
+                self.before.clone_from(&state);
+                (self.forgotten, self.forgotten_before) = (mark.forgotten, mark.forgotten);
+                let mut scan = self.begin();
+                scan.written = mark.written;
+                scan.is_reset = true;
+                let result = scan.run(order, u64::MAX);
+                scan.ask_starts();
+                let next = scan.mark();
+                *read |= scan.observed;
+                has_chosen |= !self.choices.is_empty();
+                match result {
+                    Err(Violation::Stop { fault }) if !self.model.sensed[fault] => {
+                        open.push((self.work.clone(), next));
+                    }
+                    Err(Violation::Fault { instance, fault }) if !self.model.sensed[fault] && !has_chosen => {
+                        return Some(Violation::FaultBehindStop { instance, fault });
+                    }
+                    _ => return None,
+                }
+                if !self.choices.advance() {
+                    break;
+                }
+            }
+        }
+        Some(Violation::StopsAgain)
     }
 }

@@ -450,7 +450,7 @@ impl<'a> Expander<'a> {
             scan.ask_starts();
             let restless = scan.restless;
             let (observed, changed, given) = (scan.observed, scan.written.owners | scan.fired, scan.given);
-            let mark = scan.mark(touched);
+            let mark = scan.mark();
             self.order = order;
             self.observe(observed, changed);
             if given == 0 && result.is_ok() {

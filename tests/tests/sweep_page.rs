@@ -318,6 +318,24 @@ fn axes_can_be_read_at_any_width() {
     }
 }
 
+/// Values near the ends of what a double holds.
+#[test]
+fn numbers_without_a_common_measure_have_a_chart_too() {
+    let figures = [Some(60.0), Some(61.0), Some(62.0)];
+    for (name, values) in [
+        ("tiny", ["1e-150", "2e-150", "1e-148"]),
+        ("without_distance", ["1.5e308", "0", "-1.5e308"]),
+        ("tiny_and_large", ["1e-150", "1", "1e150"]),
+    ] {
+        let Some(found) = shown(name, &by_number(&values, &figures)) else { return };
+        for width in WIDTHS {
+            let [chart] = list(&found["widths"], width) else { panic!("{name} at {width}: a chart") };
+            assert_eq!(list(chart, "rows").len(), 3, "{name} at {width}: {chart}");
+            assert!(!chart.to_string().contains("NaN"), "{name} at {width}: {chart}");
+        }
+    }
+}
+
 #[test]
 fn of_many_combinations_eight_have_a_colour() {
     let names = ["a", "b", "c", "d", "e", "f", "g", "h", "i", "j"];

@@ -343,12 +343,46 @@ fn a_type_that_forgets_what_another_one_retains() {
     let count = |texts: &Texts| {
         let outcome = texts.compile();
         assert!(outcome.diagnostics.is_empty(), "{:?}", outcome.diagnostics);
-        outcome.warnings.iter().filter(|found| found.code == "W0117").count()
+        outcome.warnings.iter().filter(|found| found.code == "W0207").count()
     };
     let both = own_line("buffer");
     assert_eq!(count(&both), 0);
     let one = both.replaced(&[("    retain all;\n", "")]);
-    // Two types of the library work with it.
+    // Three types of the library work with it.
     assert_eq!(count(&one), 3);
     assert_eq!(count(&one.replaced(&[("    local next", "    retain next;\n    local next")])), 0);
+
+    let pads = |keeps: &str, forgets: &str| {
+        Texts {
+        specs: vec![format!(
+            "device pad {{ part signal = lamp {{ at: pose; colour: red; }}; out lit: bool = signal.on; }}
+            interface Left {{ shared left: bool := false by owner; }}
+            interface Right {{ shared right: bool := false by owner; }}
+            automaton Keeps on pad is Left {{
+                {keeps}
+                retain all;
+                initial state S {{ when lit -> T {{ left := true; }} when not lit -> S {{ lit := true; }} }}
+                state T {{ when lit -> S {{ left := false; }} }}
+            }}
+            {forgets}"
+        )],
+        ..Texts::of_layout(
+            r#"{"robots": [
+                {"name": "a", "type": "keeps", "pose": [0, 0, 0]}, {"name": "b", "type": "forgets", "pose": [1, 0, 0]}
+            ]}"#
+            .to_string(),
+        )
+    }
+    };
+    let both_ways = "automaton Forgets on pad is Right {
+        knows others: Left[];
+        initial state S { when first o in others with o.left -> S { lit := true; right := true; } }
+    }";
+    let knows = "knows others: Right[]; require count(others) >= 0 else \"none\";";
+    assert_eq!(count(&pads(knows, both_ways)), 1);
+    let only_reads = "automaton Forgets on pad {
+        knows others: Left[];
+        initial state S { when first o in others with o.left -> S { lit := true; } }
+    }";
+    assert_eq!(count(&pads("", only_reads)), 0);
 }

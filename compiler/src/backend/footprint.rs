@@ -91,13 +91,7 @@ fn of_place(place: &Place, origin: Point) -> Shape {
             (Frame { position: origin + flat(frame.position), ..frame }, sides)
         }
     };
-    if centre.yaw == 0.0 {
-        return Shape::Rectangle { centre: centre.position, size: (x, y) };
-    }
-    let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
-    Shape::Polygon(
-        corners.map(|(along, across)| centre.point(Point::new(along * x, across * y, 0.0))).to_vec(),
-    )
+    rectangle(&centre.pose(), Point::new(x, y, 0.0))
 }
 
 /// Where the tool of a Cartesian robot can be; the rail of an arm on one, the range of one on two.
@@ -176,7 +170,7 @@ fn of_bodies(
     solids.map(move |solid| {
         let pose = at.pose().then(&solid.pose);
         let shape = match solid.shape {
-            solid::Shape::Box { size } => of_box(&pose, size),
+            solid::Shape::Box { size } => rectangle(&pose, size),
             solid::Shape::Capsule { length, radius } => of_capsule(&pose, length, radius),
         };
         (shape, class)
@@ -195,8 +189,8 @@ fn of_capsule(pose: &Pose, length: f64, radius: f64) -> Shape {
     Shape::Polygon(corners.map(|corner| pose.position + corner).to_vec())
 }
 
-/// A box that stands upright.
-fn of_box(pose: &Pose, size: Point) -> Shape {
+/// Of this length and width, upright.
+fn rectangle(pose: &Pose, size: Point) -> Shape {
     if pose.rotation == Pose::IDENTITY.rotation {
         return Shape::Rectangle { centre: pose.position, size: (size.x, size.y) };
     }

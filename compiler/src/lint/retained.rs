@@ -21,8 +21,9 @@ pub fn check(system: &System) -> Vec<Diagnostic> {
                     (false, true) if automaton.retained.is_empty() => [other, automaton],
                     _ => continue,
                 };
-                let types = [instance.automaton.0, system.instances[member].automaton.0];
-                if known.insert(types) {
+                let mut types = [instance.automaton.0, system.instances[member].automaton.0];
+                types.sort_unstable();
+                if has_memory(system, pair[1]) && known.insert(types) {
                     found.push(warning(pair, &system.model.interface(role.interface).name));
                 }
             }
@@ -31,10 +32,19 @@ pub fn check(system: &System) -> Vec<Diagnostic> {
     found
 }
 
+/// Whether there is anything that a loss of power takes from it.
+fn has_memory(system: &System, automaton: &Automaton) -> bool {
+    let mut interfaces = automaton.implements.iter().map(|implements| implements.interface);
+    // The first state is the beginning.
+    automaton.states.len() > 2
+        || !automaton.locals.is_empty()
+        || interfaces.any(|interface| !system.model.interface(interface).cells.is_empty())
+}
+
 fn warning([retains, forgets]: [&Automaton; 2], interface: &str) -> Diagnostic {
     let message =
         format!("`{}` retains nothing, and `{}`, with which it works, does", forgets.name, retains.name);
-    Diagnostic::new("W0117", forgets.place, message)
+    Diagnostic::new("W0207", forgets.place, message)
         .other(retains.place, "this one continues after a loss of power")
         .note(format!("they share the cells of `{interface}`: after a loss of power one side begins anew"))
         .help("write `retain all;` in both of them, or in none")

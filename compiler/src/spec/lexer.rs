@@ -136,7 +136,7 @@ pub fn tokens(file: FileId, text: &str, most: usize) -> (Vec<(Token, Span)>, Vec
                 '!' => "write `not`",
                 '&' => "write `and`",
                 '|' => "write `or`",
-                '%' if rest[1..].starts_with(['I', 'Q', 'M']) => {
+                '%' if foreign::is_address(rest) => {
                     "addresses stand in a table: `autogen build LAYOUT --io TABLE`"
                 }
                 '%' => "write `mod`",

@@ -25,7 +25,7 @@ pub const SCHEMA: Schema = Schema::new(
             "at",
             Form::Origin,
             "m",
-            "origin of the offsets: at the first stop of a route, at the inner end of a cylinder, at 0 of a positioner; on a track from the middle of the vehicle, x ahead. A frame turns slots and floor: `origin * frame(1, 0, 0.5, 0)` with the machine. With a point they lie along the axes of the world, on a track along the vehicle",
+            "origin of the offsets: at the first stop of a route, at the inner end of a cylinder, at 0 of a positioner; on a track from the middle of the vehicle, x ahead. A frame turns slots and floor: `origin * frame(1, 0, 0.5, 0)` with the machine. With a point they lie along the axes of the world, on a track along the vehicle. `drawn` is turned too, `toward` is not",
         ),
         Setting::new("slots", Form::Points, "m", "places of the undersides of items, from the origin"),
         Setting::new("by_kind", Form::Truth, "", "each slot is for one kind, in the order of the kinds"),

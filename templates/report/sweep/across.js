@@ -101,9 +101,16 @@ const Across = (() => {
     return { places, order: values.map((_, i) => i), gap, isToScale: false, isInRatio: false, ...named() };
   }
 
+  /* The distance of the greatest number from the least one is a number. */
+  function canBeMeasured({ values }) {
+    const numbers = values.map(Number);
+    const [least, greatest] = numbers.reduce(([low, high], number) => [Math.min(low, number), Math.max(high, number)], [Infinity, -Infinity]);
+    return Number.isFinite(greatest - least);
+  }
+
   /* For each value its place on an axis of this many pixels, their order, the least distance, and labels. */
   function of(name, length) {
-    return name.are_numbers ? ofNumbers(name, length) : ofWords(name, length);
+    return name.are_numbers && canBeMeasured(name) ? ofNumbers(name, length) : ofWords(name, length);
   }
 
   return { of, TURN };

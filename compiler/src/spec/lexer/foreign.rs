@@ -40,6 +40,14 @@ pub fn meant_among<'a>(word: &str, words: &[&'a str]) -> Option<&'a str> {
     words.iter().copied().find(|word| word == meant)
 }
 
+/// Whether an address such as `%IX0.3` or `%Q4` begins here.
+pub fn is_address(rest: &str) -> bool {
+    let Some(behind) = rest.strip_prefix(['%']).and_then(|rest| rest.strip_prefix(['I', 'Q', 'M'])) else {
+        return false;
+    };
+    behind.strip_prefix(['X', 'B', 'W', 'D']).unwrap_or(behind).starts_with(|c: char| c.is_ascii_digit())
+}
+
 /// What does the work of a function block of Structured Text.
 pub fn function_block(name: &str) -> Option<&'static str> {
     match name.to_ascii_uppercase().as_str() {

@@ -1,6 +1,7 @@
 //! `device` and `assembly`: parameters, parts, ports, commands, constants, places.
 
 use super::Parser;
+use crate::diagnostic::suggestion;
 use crate::source::Spanned;
 use crate::spec::ast;
 use crate::spec::lexer::{Token, foreign};
@@ -45,12 +46,13 @@ impl Parser {
             let Some(member) = known.copied() else {
                 let found = self.found();
                 let near = match self.peek() {
-                    Token::Word(word) => foreign::meant_among(word, MEMBERS),
+                    Token::Word(word) => foreign::meant_among(word, MEMBERS)
+                        .or_else(|| suggestion(word, MEMBERS.iter().copied())),
                     _ => None,
                 };
                 let help = match near {
                     Some(word) => format!("is `{word}` meant?"),
-                    None if self.at_sign(";") => "remove it: nothing ends with `;` after its `;`".into(),
+                    None if self.at_sign(";") => "remove it: one `;` ends a declaration".into(),
                     None => format!("a device has `{}`", MEMBERS.join("`, `")),
                 };
                 self.error("E0204", format!("{found} is not allowed in a device"), help);

@@ -1,6 +1,7 @@
 //! Expressions, by precedence: `or`, `and`, `not`, comparisons, sums, products, signs, accesses.
 
 use super::{DEEPEST, LONGEST, Parser};
+use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::spec::ast::{self, Expr, ExprKind, Operator, Quantifier};
 use crate::spec::lexer::{Token, foreign};
@@ -299,6 +300,15 @@ impl Parser {
                     return Expr { span, kind: ExprKind::Name(name.value) };
                 }
                 let arguments = self.list(")");
+                if self.at_sign(":=")
+                    && let Some(help) = foreign::function_block(&name.value)
+                {
+                    let message = format!("`{}` is no function of the language", name.value);
+                    self.report(Diagnostic::new("E0311", name.span, message).help(help));
+                    self.skip_to(&[")"]);
+                    self.maybe_sign(")");
+                    return error(span);
+                }
                 if self.expect_sign(")", "after the arguments").is_none() {
                     return error(span);
                 }
@@ -358,7 +368,9 @@ impl Parser {
             Some(word) => match foreign::unit(word) {
                 Some((factor, unit)) => {
                     let message = format!("`{word}` is no unit of time");
-                    let help = format!("units are `ms`, `s` and `min`: write `{} {unit}`", value * factor);
+                    // To the millisecond, whatever is rounded on the way.
+                    let number = (value * factor * 60_000.0).round() / 60_000.0;
+                    let help = format!("units are `ms`, `s` and `min`: write `{number} {unit}`");
                     self.error("E0214", message, help);
                     self.next();
                     return Expr { span: span.to(self.last_span()), kind: ExprKind::Duration(0) };

@@ -92,6 +92,12 @@ impl Parser {
                 self.otherwise();
                 continue;
             }
+            if self.at_sign(";") {
+                let help = "remove it: nothing ends with `;` after its `}`";
+                self.error("E0204", "`;` is not allowed in a state".into(), help);
+                self.next();
+                continue;
+            }
             if !self.at_word("when") {
                 let found = self.found();
                 self.error(

@@ -14,7 +14,7 @@ pub fn copies(wired: &[Wired], counting: Counting) -> String {
         return String::new();
     }
     if counting == Counting::Apart {
-        return "\n   The table of addresses counts bits, bytes and words apart: it is none of this controller.\n".into();
+        return "\n   The addresses of the table are not valid for this controller: build with --addresses bytes.\n".into();
     }
     let of = |direction: Direction| -> Vec<String> {
         let all = wired.iter().filter(|wired| wired.direction == direction);
@@ -88,6 +88,6 @@ mod tests {
         ] {
             assert_eq!(said(direction, address, raw, counting), statement);
         }
-        assert!(said(input, "%IX0.0", Raw::Bool, Counting::Apart).contains("none of this controller"));
+        assert!(said(input, "%IX0.0", Raw::Bool, Counting::Apart).contains("--addresses bytes"));
     }
 }
