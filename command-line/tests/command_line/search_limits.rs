@@ -43,7 +43,7 @@ fn a_state_with_too_many_successors_is_cut_by_the_limits() {
 #[test]
 fn a_cut_search_says_what_the_one_before_it_has_proved() {
     let folder = machines("search_before", 14);
-    let arguments = ["verify", "line.json", "--scenario", "scenario.json", "--limit", "5s"];
+    let arguments = ["verify", "line.json", "--scenario", "scenario.json", "--limit", "2s"];
     let output = autogen(&folder, &arguments);
     assert_eq!(status(&output), 4, "{}", errors(&output));
     let said = printed(&output);
