@@ -10,7 +10,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// So many scans behind a stop are looked at: a line that stops in as many, one after another, does so for ever.
 const MOST_SCANS: usize = 256;
 
-/// The state in which a scan has ended in a stop. What the operator does may change inputs of devices: they are open.
+/// The state behind a stop, once an operator has reset it. What he does may change inputs of devices: they are open.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub(crate) struct Stopped {
     pub state: Vec<u8>,
@@ -89,11 +89,9 @@ impl Expander<'_> {
 
     fn stops_again(&mut self, stopped: &Stopped, order: &[usize], read: &mut u64) -> Option<Violation> {
         let mut known: FxHashSet<Vec<u8>> = FxHashSet::default();
-        let mut open = vec![(stopped.state.clone(), stopped.mark)];
+        let mut open = vec![stopped.clone()];
         let (mut scans, mut has_chosen) = (0, false);
-        while let Some((mut state, mark)) = open.pop() {
-            self.model.open_inputs(&mut state);
-            self.model.reset(&mut state);
+        while let Some(Stopped { state, mark }) = open.pop() {
             if !known.insert(state.clone()) {
                 continue;
             }
@@ -116,7 +114,7 @@ impl Expander<'_> {
                 has_chosen |= !self.choices.is_empty();
                 match result {
                     Err(Violation::Stop { fault }) if !self.model.sensed[fault] => {
-                        open.push((self.work.clone(), next));
+                        open.push(Stopped::new(self.model, &self.work, next));
                     }
                     Err(Violation::Fault { instance, fault }) if !self.model.sensed[fault] && !has_chosen => {
                         return Some(Violation::FaultBehindStop { instance, fault });

@@ -270,26 +270,20 @@ impl Parser {
             return Some(());
         }
         let found = self.found();
-        if sign == ";" && self.is_before_description_of_next() {
-            // The description is that of the next declaration.
-            self.diagnose(
-                Diagnostic::new("E0205", self.last_span(), format!("`;` is missing {after}"))
-                    .label(format!("then comes {found}"))
-                    .help("write `;` after this"),
-            );
-            return Some(());
-        }
         let is_confused = CONFUSED.contains(&sign) && CONFUSED.iter().any(|other| self.at_sign(other));
         let (place, help) = match sign {
             ";" => (self.last_span(), "write `;` after this".to_string()),
             _ if is_confused => (self.span(), format!("write `{sign}` instead of {found}")),
             _ => (self.span(), format!("write `{sign}` before {found}")),
         };
-        self.report(
-            Diagnostic::new("E0205", place, format!("`{sign}` is missing {after}"))
-                .label(if sign == ";" { format!("then comes {found}") } else { String::new() })
-                .help(help),
-        );
+        let missing = Diagnostic::new("E0205", place, format!("`{sign}` is missing {after}"))
+            .label(if sign == ";" { format!("then comes {found}") } else { String::new() })
+            .help(help);
+        if sign == ";" && self.is_before_description_of_next() {
+            self.note(missing);
+            return Some(());
+        }
+        self.report(missing);
         is_confused.then(|| self.next())
     }
 
@@ -368,33 +362,30 @@ impl Parser {
         self.report(Diagnostic::new(code, span, message).help(help));
     }
 
-    /// Of several errors at one token only the first is reported.
+    /// Of several errors at one token only the first is reported. A description that stands here is passed over.
     fn report(&mut self, diagnostic: Diagnostic) {
-        let is_first = self.error_at != Some(self.position);
         let diagnostic = self.misplaced_description().unwrap_or(diagnostic);
-        self.note(diagnostic, is_first);
+        self.note(diagnostic);
+        if !self.doc().is_empty() {
+            self.error_at = Some(self.position);
+        }
     }
 
     /// As [`Self::report`], where a description may stand.
-    fn diagnose(&mut self, diagnostic: Diagnostic) {
-        let is_first = self.error_at != Some(self.position);
-        self.note(diagnostic, is_first);
-    }
-
-    fn note(&mut self, diagnostic: Diagnostic, is_first: bool) {
-        if is_first {
+    fn note(&mut self, diagnostic: Diagnostic) {
+        if self.error_at != Some(self.position) {
             collect(&mut self.diagnostics, diagnostic);
         }
         self.error_at = Some(self.position);
         self.errors += 1;
     }
 
-    /// What is wrong if a description stands here, where something else is expected. It is passed over.
-    fn misplaced_description(&mut self) -> Option<Diagnostic> {
-        let span = self.span();
+    /// What is wrong if a description stands here, where something else is expected.
+    fn misplaced_description(&self) -> Option<Diagnostic> {
         let message = "a `///` comment describes what follows it, and cannot stand here";
         let help = "begin it with `//`, or put it above the declaration";
-        (!self.doc().is_empty()).then(|| Diagnostic::new("E0204", span, message).help(help))
+        matches!(self.peek(), Token::Doc(_))
+            .then(|| Diagnostic::new("E0204", self.span(), message).help(help))
     }
 
     /// Skips to one of these signs, past whole parentheses; not past a brace or a `;`.
