@@ -10,6 +10,18 @@ pub struct Point {
     pub z: f64,
 }
 
+/// The lesser of two numbers; the second one, if one of them is no number. Unlike [`f64::min`] one instruction.
+#[inline]
+pub(crate) fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The greater of two numbers; the second one, if one of them is no number.
+#[inline]
+pub(crate) fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
 impl Point {
     pub const fn new(x: f64, y: f64, z: f64) -> Self {
         Self { x, y, z }
@@ -30,6 +42,12 @@ impl Point {
     #[inline]
     pub fn scaled(self, factor: f64) -> Self {
         Self::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+
+    /// Without the signs of its coordinates.
+    #[inline]
+    pub fn absolute(self) -> Self {
+        Self::new(self.x.abs(), self.y.abs(), self.z.abs())
     }
 
     #[inline]

@@ -156,8 +156,13 @@ impl Placed {
 
     /// What contains it.
     pub fn bounds(&self) -> BoundingBox {
-        let along = |x: f64, y: f64, z: f64| self.extent(Point::new(x, y, z));
-        let half = Point::new(along(1.0, 0.0, 0.0), along(0.0, 1.0, 0.0), along(0.0, 0.0, 1.0));
+        let half = match &self.core {
+            Core::Segment([a, b]) => (*b - *a).absolute().scaled(0.5),
+            Core::Block(Block { axes: [x, y, z], half, .. }) => {
+                x.absolute().scaled(half[0]) + y.absolute().scaled(half[1]) + z.absolute().scaled(half[2])
+            }
+        };
+        let half = half + Point::new(self.radius, self.radius, self.radius);
         BoundingBox::between(self.ball.middle - half, self.ball.middle + half)
     }
 

@@ -3,7 +3,7 @@
 use super::body::Ball;
 use crate::kinematics::arm::{Arm, Frames, Joints, MOST_JOINTS};
 use crate::machine::Machine;
-use crate::point::{Axis, Point};
+use crate::point::{Axis, Point, greater, lesser};
 use std::f64::consts::PI;
 
 /// For each joint a bound on how far it moves any point of a body, for each metre or radian of its own travel.
@@ -26,8 +26,8 @@ impl BoundingBox {
     #[inline]
     pub fn with(&self, other: &BoundingBox) -> Self {
         Self {
-            low: by_coordinate(self.low, other.low, f64::min),
-            high: by_coordinate(self.high, other.high, f64::max),
+            low: by_coordinate(self.low, other.low, lesser),
+            high: by_coordinate(self.high, other.high, greater),
         }
     }
 
@@ -50,8 +50,8 @@ impl BoundingBox {
     /// What is in both, of two that are not apart.
     pub fn common(&self, other: &BoundingBox) -> Self {
         Self {
-            low: by_coordinate(self.low, other.low, f64::max),
-            high: by_coordinate(self.high, other.high, f64::min),
+            low: by_coordinate(self.low, other.low, greater),
+            high: by_coordinate(self.high, other.high, lesser),
         }
     }
 
@@ -86,7 +86,7 @@ impl BoundingBox {
     /// The square of the distance of a point, m2; 0 within.
     #[inline]
     pub fn square_gap(&self, point: Point) -> f64 {
-        let outside = |at: f64, low: f64, high: f64| (low - at).max(at - high).max(0.0);
+        let outside = |at: f64, low: f64, high: f64| greater(greater(low - at, at - high), 0.0);
         let x = outside(point.x, self.low.x, self.high.x);
         let y = outside(point.y, self.low.y, self.high.y);
         let z = outside(point.z, self.low.z, self.high.z);

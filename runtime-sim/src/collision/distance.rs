@@ -5,7 +5,7 @@
 //! distance of two points that were found, so it is never too short, and 0 for what meets. With a NaN among
 //! the coordinates the result is NaN.
 
-use crate::point::Point;
+use crate::point::{Point, greater, lesser};
 
 /// A box in any direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,7 +73,7 @@ impl Block {
 
     /// How far a point of the box's own frame is outside along each axis.
     fn outside(&self, own: [f64; 3]) -> [f64; 3] {
-        let along = |i: usize| own[i] - own[i].max(-self.half[i]).min(self.half[i]);
+        let along = |i: usize| own[i] - lesser(greater(own[i], -self.half[i]), self.half[i]);
         [along(0), along(1), along(2)]
     }
 
@@ -102,8 +102,8 @@ impl Block {
     /// The square of a distance that no point between two of the box's own frame is nearer than.
     fn square_apart(&self, start: [f64; 3], end: [f64; 3]) -> f64 {
         let along = |i: usize| {
-            let (low, high) = (start[i].min(end[i]), start[i].max(end[i]));
-            (low - self.half[i]).max(-self.half[i] - high).max(0.0)
+            let (low, high) = (lesser(start[i], end[i]), greater(start[i], end[i]));
+            greater(greater(low - self.half[i], -self.half[i] - high), 0.0)
         };
         let (x, y, z) = (along(0), along(1), along(2));
         x * x + y * y + z * z

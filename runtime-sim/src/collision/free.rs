@@ -345,7 +345,7 @@ impl<'a> Path<'a> {
         let sections = sections.filter(|_| group == other)?;
         let groups = &*self.groups;
         let travel = self.between.entry(bodies).or_insert_with(|| groups[group].travel_between(bodies));
-        travel.as_ref().map(|travel| from_middle(travel, places, sections))
+        travel.as_ref().map(|travel| travel.from_middle(places, sections))
     }
 
     /// Metres that the body goes at most from the middle to either end.
@@ -353,18 +353,11 @@ impl<'a> Path<'a> {
         let group = &self.groups[self.numbers[side]];
         let Some(body) = self.body(side, body) else { return 0.0 };
         if let (Some(sections), Some(motion)) = (sections, group.motion()) {
-            return from_middle(body.travel(motion), places, sections);
+            return body.travel(motion).from_middle(places, sections);
         }
         let [from, middle, to] = places;
         group.path_along(body, [from, middle]).max(group.path_along(body, [middle, to]))
     }
-}
-
-/// Metres to either end at most.
-fn from_middle(travel: &Travel, places: [f64; 3], sections: [usize; 3]) -> f64 {
-    let gone = |i: usize| travel.within(sections[i], places[i]);
-    let (from, middle, to) = (gone(0), gone(1), gone(2));
-    (middle - from).max(to - middle)
 }
 
 /// Whether two bodies keep off one another while they go so far.

@@ -12,6 +12,16 @@ pub struct Pose {
     pub position: Point,
 }
 
+/// The turn about x at the end of a link by Denavit and Hartenberg.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Twist {
+    None,
+    /// By 90 degrees.
+    Quarter,
+    /// By -90 degrees.
+    Back,
+}
+
 impl Pose {
     pub const IDENTITY: Self = Self {
         rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
@@ -25,16 +35,22 @@ impl Pose {
         Self { rotation: [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]], position }
     }
 
-    /// One link of a chain by Denavit and Hartenberg: turn about z, shift along z and the new x, then turn about x.
-    /// `twist` is the sine and cosine of the last turn.
+    /// One link of a chain by Denavit and Hartenberg behind this frame: turn about z, shift along z and the new x, then
+    /// turn about x.
     #[inline]
-    pub fn link(angle: f64, shift_z: f64, shift_x: f64, twist: (f64, f64)) -> Self {
+    pub fn behind_link(&self, angle: f64, shift_z: f64, shift_x: f64, twist: Twist) -> Self {
         let (s, c) = libm::sincos(angle);
-        let (st, ct) = twist;
-        Self {
-            rotation: [[c, -s * ct, s * st], [s, c * ct, -c * st], [0.0, st, ct]],
-            position: Point::new(shift_x * c, shift_x * s, shift_z),
-        }
+        let turned = |&[x, y, z]: &[f64; 3]| {
+            let [ahead, aside] = [x * c + y * s, y * c - x * s];
+            match twist {
+                Twist::None => [ahead, aside, z],
+                Twist::Quarter => [ahead, z, -aside],
+                Twist::Back => [ahead, -z, aside],
+            }
+        };
+        let [x, y, z] = &self.rotation;
+        let position = self.point(Point::new(shift_x * c, shift_x * s, shift_z));
+        Self { rotation: [turned(x), turned(y), turned(z)], position }
     }
 
     /// Axis 0, 1 or 2 of the frame.
@@ -55,6 +71,13 @@ impl Pose {
     #[inline]
     pub fn point(&self, inner: Point) -> Point {
         self.position + self.direction(inner)
+    }
+
+    /// A point given in the frame that this one is given in, in this frame.
+    #[inline]
+    pub fn seen(&self, outer: Point) -> Point {
+        let offset = outer - self.position;
+        Point::new(offset.dot(self.axis(0)), offset.dot(self.axis(1)), offset.dot(self.axis(2)))
     }
 
     /// The frame that this one is given in, seen from this one.
@@ -106,7 +129,7 @@ mod tests {
 
     fn about_x(angle: f64) -> Pose {
         let (sin, cos) = libm::sincos(angle);
-        Pose::link(0.0, 0.0, 0.0, (sin, cos))
+        Pose { rotation: [[1.0, 0.0, 0.0], [0.0, cos, -sin], [0.0, sin, cos]], ..Pose::IDENTITY }
     }
 
     fn about_y(angle: f64) -> Pose {

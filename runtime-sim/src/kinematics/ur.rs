@@ -3,7 +3,7 @@
 //! Links by Denavit and Hartenberg, in the frame of the arm's base as the maker defines it (z along the first joint).
 
 use super::links::Link;
-use super::pose::Pose;
+use super::pose::{Pose, Twist};
 use super::room::Bent;
 use super::{root, wrapped};
 use crate::point::Point;
@@ -73,17 +73,14 @@ impl Lengths {
     /// What is fixed behind each joint: Denavit and Hartenberg's link at the angle 0.
     fn behind(&self) -> [Pose; 6] {
         let Lengths { d1, a2, a3, d4, d5, tool } = *self;
-        const STRAIGHT: (f64, f64) = (0.0, 1.0);
-        const QUARTER: (f64, f64) = (1.0, 0.0);
-        const BACK: (f64, f64) = (-1.0, 0.0);
-        let link = |shift_z, shift_x, twist| Pose::link(0.0, shift_z, shift_x, twist);
+        let link = |shift_z, shift_x, twist| Pose::IDENTITY.behind_link(0.0, shift_z, shift_x, twist);
         [
-            link(d1, 0.0, QUARTER),
-            link(0.0, a2, STRAIGHT),
-            link(0.0, a3, STRAIGHT),
-            link(d4, 0.0, QUARTER),
-            link(d5, 0.0, BACK),
-            link(tool, 0.0, STRAIGHT),
+            link(d1, 0.0, Twist::Quarter),
+            link(0.0, a2, Twist::None),
+            link(0.0, a3, Twist::None),
+            link(d4, 0.0, Twist::Quarter),
+            link(d5, 0.0, Twist::Back),
+            link(tool, 0.0, Twist::None),
         ]
     }
 
@@ -98,15 +95,12 @@ impl Lengths {
     /// at the far ends of upper arm and forearm, x pointing back along the link; the last is the tool, z its axis.
     pub fn frames(&self, q: &Angles) -> [Pose; 6] {
         let Lengths { d1, a2, a3, d4, d5, tool } = *self;
-        const STRAIGHT: (f64, f64) = (0.0, 1.0);
-        const QUARTER: (f64, f64) = (1.0, 0.0);
-        const BACK: (f64, f64) = (-1.0, 0.0);
-        let shoulder = Pose::link(q[0], d1, 0.0, QUARTER);
-        let upper_arm = shoulder.then(&Pose::link(q[1], 0.0, a2, STRAIGHT));
-        let forearm = upper_arm.then(&Pose::link(q[2], 0.0, a3, STRAIGHT));
-        let wrist_1 = forearm.then(&Pose::link(q[3], d4, 0.0, QUARTER));
-        let wrist_2 = wrist_1.then(&Pose::link(q[4], d5, 0.0, BACK));
-        let wrist_3 = wrist_2.then(&Pose::link(q[5], tool, 0.0, STRAIGHT));
+        let shoulder = Pose::IDENTITY.behind_link(q[0], d1, 0.0, Twist::Quarter);
+        let upper_arm = shoulder.behind_link(q[1], 0.0, a2, Twist::None);
+        let forearm = upper_arm.behind_link(q[2], 0.0, a3, Twist::None);
+        let wrist_1 = forearm.behind_link(q[3], d4, 0.0, Twist::Quarter);
+        let wrist_2 = wrist_1.behind_link(q[4], d5, 0.0, Twist::Back);
+        let wrist_3 = wrist_2.behind_link(q[5], tool, 0.0, Twist::None);
         [shoulder, upper_arm, forearm, wrist_1, wrist_2, wrist_3]
     }
 

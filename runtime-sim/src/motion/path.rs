@@ -94,6 +94,14 @@ impl Travel {
         }
     }
 
+    /// Metres from the middle one of three places to either end at most; each is in the section with its number.
+    #[inline]
+    pub fn from_middle(&self, places: [f64; 3], sections: [usize; 3]) -> f64 {
+        let gone = |i: usize| self.within(sections[i], places[i]);
+        let (from, middle, to) = (gone(0), gone(1), gone(2));
+        (middle - from).max(to - middle)
+    }
+
     /// The place at which it has gone so much farther than at `place`, which is in the section with this number; 1 if it
     /// never does.
     pub fn after(&self, number: usize, place: f64, distance: f64) -> f64 {

@@ -1,10 +1,12 @@
 //! How far a gantry is from obstacles and from itself.
 
-use super::member::{Located, Member};
-use super::obstacle::Cluster;
+use super::member::Member;
+use super::obstacle::{Cluster, Obstruction};
+use crate::collision::body::{Piece, Placed};
 use crate::collision::reach::{Ball, Chain, Radii};
 use crate::kinematics::arm::{Arm, Frames, Joints, MOST_JOINTS};
-use crate::point::Point;
+use crate::kinematics::pose::Pose;
+use crate::point::{Point, lesser};
 use std::cell::OnceCell;
 
 /// What hangs on the gripper.
@@ -20,6 +22,10 @@ pub struct Links {
     arm: Arm,
     /// The load is the last one.
     members: Vec<Member>,
+    /// Where the pieces of each member begin among those of all.
+    begins: Vec<usize>,
+    /// How many they all have.
+    pieces: usize,
     pairs: Vec<Pair>,
 }
 
@@ -46,8 +52,25 @@ pub struct Standing<'a> {
     frames: Frames,
     /// By member.
     balls: [Ball; MOST_JOINTS + 1],
-    /// Those that are near something.
-    located: [OnceCell<Located>; MOST_JOINTS + 1],
+    /// The pieces of all members; those that are near something are known.
+    placed: Vec<OnceCell<Placed>>,
+}
+
+/// A piece of a link where it is.
+struct Located<'a> {
+    piece: &'a Piece,
+    frame: &'a Pose,
+    placed: &'a OnceCell<Placed>,
+}
+
+impl<'a> Located<'a> {
+    fn ball(&self) -> Ball {
+        self.piece.ball().within(self.frame)
+    }
+
+    fn placed(&self) -> &'a Placed {
+        self.placed.get_or_init(|| self.piece.within(self.frame))
+    }
 }
 
 /// Number of the joint that turns the torso.
@@ -74,13 +97,13 @@ impl Links {
                 }
             }
         }
-        Self { arm, members, pairs }
-    }
-
-    /// All of them but the load, where they are.
-    pub fn located(&self, frames: &Frames) -> Vec<Located> {
-        let links = &self.members[..self.members.len() - 1];
-        links.iter().map(|member| Located::new(member, frames)).collect()
+        let mut begins = Vec::with_capacity(members.len());
+        let mut pieces = 0;
+        for member in &members {
+            begins.push(pieces);
+            pieces += member.pieces.len();
+        }
+        Self { arm, members, begins, pieces, pairs }
     }
 
     pub fn at(&self, joints: &Joints) -> Standing<'_> {
@@ -89,7 +112,7 @@ impl Links {
         for (ball, member) in balls.iter_mut().zip(&self.members) {
             *ball = member.ball.within(&frames[member.link]);
         }
-        Standing { links: self, frames, balls, located: Default::default() }
+        Standing { links: self, frames, balls, placed: vec![OnceCell::new(); self.pieces] }
     }
 
     /// All that may meet, with or without a load.
@@ -108,7 +131,7 @@ impl Standing<'_> {
     pub fn gap(&self, near: &Nearby, load: Load, [needed, enough]: [f64; 2]) -> f64 {
         let mut least = enough;
         for pair in self.links.pairs(load) {
-            least = least.min(self.distance(pair, near, least));
+            least = lesser(least, self.distance(pair, near, least));
             if least < needed {
                 break;
             }
@@ -126,7 +149,33 @@ impl Standing<'_> {
         if apart >= enough {
             return apart;
         }
-        between(self.located(pair.member), self.located(other), enough)
+        let member = &self.links.members[pair.member];
+        let frame = &self.frames[member.link];
+        if member.apart(frame, &self.balls[other]) >= enough {
+            return enough;
+        }
+        self.pieces(other).fold(f64::INFINITY, |least, located| {
+            let enough = lesser(enough, least);
+            if member.apart(frame, &located.ball()) >= enough {
+                return lesser(least, enough);
+            }
+            lesser(least, self.gap_of_member(pair.member, located.placed(), enough))
+        })
+    }
+
+    /// How far all links, without a load, are from something, m; `enough` if they are that far or farther.
+    pub fn gap_to(&self, other: &Placed, enough: f64) -> f64 {
+        let links = 0..self.links.members.len() - 1;
+        links.fold(enough, |least, member| least.min(self.gap_of_member(member, other, least)))
+    }
+
+    /// The same of one member; no shorter than `enough` if it is that far or farther.
+    fn gap_of_member(&self, member: usize, other: &Placed, enough: f64) -> f64 {
+        self.pieces(member).fold(f64::INFINITY, |least, located| {
+            let enough = lesser(enough, least);
+            let is_apart = located.ball().is_apart_by(&other.ball, enough);
+            lesser(least, if is_apart { enough } else { gap(located.placed(), other, enough) })
+        })
     }
 
     /// The distance of a link from obstacles.
@@ -137,31 +186,47 @@ impl Standing<'_> {
         let mut far_square = f64::INFINITY;
         for cluster in obstacles {
             let square = cluster.square_gap(ball.middle);
-            let enough_here = enough.min(least);
+            let enough_here = lesser(enough, least);
             let needed = enough_here + ball.radius;
             if square > needed * needed * (1.0 + ROUNDED) || square.sqrt() - ball.radius >= enough_here {
-                far_square = far_square.min(square);
+                far_square = lesser(far_square, square);
                 continue;
             }
             for other in &cluster.all {
-                let enough = enough.min(least);
+                let enough = lesser(enough, least);
                 let apart = other.apart(ball);
                 least = least.min(if apart >= enough {
                     apart
                 } else {
-                    self.located(member).gap_to(other, enough)
+                    self.gap_to_obstruction(member, other, enough)
                 });
             }
         }
         least.min(far_square.sqrt() - ball.radius)
     }
 
-    fn located(&self, member: usize) -> &Located {
-        self.located[member].get_or_init(|| Located::new(&self.links.members[member], &self.frames))
+    /// The distance of a link from an obstacle, or one that is no longer and no shorter than `enough`, m.
+    fn gap_to_obstruction(&self, member: usize, other: &Obstruction, enough: f64) -> f64 {
+        self.pieces(member).fold(f64::INFINITY, |least, located| {
+            let enough = lesser(enough, least);
+            let apart = other.apart(&located.ball());
+            if apart >= enough {
+                return lesser(least, apart);
+            }
+            lesser(least, gap(located.placed(), &other.placed, enough))
+        })
+    }
+
+    fn pieces(&self, member: usize) -> impl Iterator<Item = Located<'_>> {
+        let placed = &self.placed[self.links.begins[member]..];
+        let Member { link, pieces, .. } = &self.links.members[member];
+        let frame = &self.frames[*link];
+        pieces.iter().zip(placed).map(move |(piece, placed)| Located { piece, frame, placed })
     }
 }
 
-/// The distance of two links, or one that is no longer and no shorter than `enough`, m.
-fn between(a: &Located, b: &Located, enough: f64) -> f64 {
-    b.pieces.iter().fold(f64::INFINITY, |least, piece| least.min(a.gap(piece, enough.min(least))))
+/// The distance, or one that is no longer and no shorter than `enough`, m.
+#[inline]
+fn gap(a: &Placed, b: &Placed, enough: f64) -> f64 {
+    if a.is_apart_by(b, enough) { enough } else { a.gap(b).distance }
 }

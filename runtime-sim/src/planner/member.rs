@@ -1,7 +1,7 @@
 //! A link of a gantry, as its planner takes it.
 
-use super::obstacle::Obstruction;
-use crate::collision::body::{Ball, Piece, Placed};
+use crate::collision::BoundingBox;
+use crate::collision::body::{Ball, Piece};
 use crate::kinematics::pose::Pose;
 use crate::machine::Machine;
 use crate::solid::Link;
@@ -12,6 +12,8 @@ pub struct Member {
     pub link: usize,
     pub pieces: Vec<Piece>,
     pub ball: Ball,
+    /// In the frame of the link.
+    bounds: BoundingBox,
 }
 
 impl Member {
@@ -23,43 +25,21 @@ impl Member {
             let Link::Joint(link) = solids[0].link else { return None };
             let pieces: Vec<Piece> =
                 solids.iter().map(|s| Piece::new(s.name.clone(), &s.pose, s.shape)).collect();
-            let balls: Vec<Ball> = pieces.iter().map(Piece::ball).collect();
-            Some(Self { link, pieces, ball: Ball::around(&balls) })
+            Some(Self::new(link, pieces))
         });
         links.collect()
     }
-}
 
-/// A link where it is.
-pub struct Located {
-    pub pieces: Vec<Placed>,
-}
-
-impl Located {
-    pub fn new(member: &Member, frames: &[Pose]) -> Self {
-        let frame = &frames[member.link];
-        Self { pieces: member.pieces.iter().map(|piece| piece.within(frame)).collect() }
+    pub fn new(link: usize, pieces: Vec<Piece>) -> Self {
+        let balls: Vec<Ball> = pieces.iter().map(Piece::ball).collect();
+        let bounds = pieces.iter().map(|piece| piece.within(&Pose::IDENTITY).bounds());
+        let bounds = bounds.fold(BoundingBox::NOTHING, |all, next| all.with(&next));
+        Self { link, pieces, ball: Ball::around(&balls), bounds }
     }
 
-    /// The distance from an obstacle, or one that is no longer and no shorter than `enough`, m.
-    pub fn gap_to(&self, other: &Obstruction, enough: f64) -> f64 {
-        self.pieces.iter().fold(f64::INFINITY, |least, piece| {
-            let enough = enough.min(least);
-            let apart = other.apart(&piece.ball);
-            least.min(if apart >= enough { apart } else { gap(piece, &other.placed, enough) })
-        })
-    }
-
-    /// The same from something else.
+    /// A distance that nothing within a ball is nearer to it than, m; its link has this frame.
     #[inline]
-    pub fn gap(&self, other: &Placed, enough: f64) -> f64 {
-        let gap = |least: f64, piece| least.min(gap(piece, other, enough.min(least)));
-        self.pieces.iter().fold(f64::INFINITY, gap)
+    pub fn apart(&self, frame: &Pose, ball: &Ball) -> f64 {
+        self.bounds.gap(&Ball { middle: frame.seen(ball.middle), ..*ball })
     }
-}
-
-/// The distance, or one that is no longer and no shorter than `enough`, m.
-#[inline]
-fn gap(a: &Placed, b: &Placed, enough: f64) -> f64 {
-    if a.is_apart_by(b, enough) { enough } else { a.gap(b).distance }
 }

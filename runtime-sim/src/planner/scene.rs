@@ -104,7 +104,7 @@ impl Scene {
         let members = Member::all(own);
         let hand = members.last()?.link;
         let load = largest_load(&line.kinds);
-        let load = Member { link: hand, ball: load.ball(), pieces: vec![load] };
+        let load = Member::new(hand, vec![load]);
         let beams = members.iter().filter(|member| member.link < TORSO).flat_map(|member| &member.pieces);
         let lowest_beam = beams.map(|piece| shoulder + piece.lowest()).fold(f64::INFINITY, f64::min);
         let places = places(line);
@@ -156,15 +156,14 @@ impl Scene {
 
     /// How far the robot is from parts that may lie beside the place under the tool, m; `enough` if it is that far or farther.
     pub fn gap_at_place(&self, joints: &Joints, enough: f64) -> f64 {
-        let frames = self.arm.frames(joints);
         let tool = self.arm.tool(joints);
-        let members = self.links.located(&frames);
+        let links = self.links.at(joints);
         let mut least = enough;
         for Places { all, order } in &self.places {
             let Some(here) = all.iter().position(|(place, _)| is_over(tool, *place)) else { continue };
             for (i, (_, part)) in all.iter().enumerate() {
                 if i > here || i < here && *order == Order::Any {
-                    least = members.iter().fold(least, |least, member| least.min(member.gap(part, least)));
+                    least = links.gap_to(part, least);
                 }
             }
         }

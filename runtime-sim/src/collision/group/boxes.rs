@@ -213,9 +213,12 @@ impl Group {
                 let middle = (2 * (piece * PLACES + place) + 1) as f64 * half;
                 let frames = arm.frames(&motion.along(middle));
                 let places = [middle - half, middle, middle + half];
+                let sections = self.sections(places);
                 for (all, body) in bodies.iter_mut().zip(&self.bodies) {
                     if let Some(body) = body {
-                        *all = all.with(&along(body, motion, &frames, places));
+                        let reach = sections
+                            .map_or(0.0, |sections| body.travel(motion).from_middle(places, sections));
+                        *all = all.with(&present_within(body, &frames, reach));
                     }
                 }
             }
@@ -296,13 +299,9 @@ impl Group {
     }
 }
 
-/// What contains a body of an arm between the first and the last of these places on its path; the frames are those of the
-/// middle one.
-fn along(body: &Body, motion: &Motion, frames: &Frames, [from, middle, to]: [f64; 3]) -> BoundingBox {
+/// What contains a body of an arm that goes no farther than so many metres from where it is at these frames.
+fn present_within(body: &Body, frames: &Frames, reach: f64) -> BoundingBox {
     let Anchor::Link(link) = body.anchor else { return body.bounds };
-    let travel = body.travel(motion);
-    let gone = travel.to(middle);
-    let reach = (gone - travel.to(from)).max(travel.to(to) - gone);
     if body.ball.radius > LONG {
         return present(&body.pieces, &frames[link]).wider(reach);
     }
