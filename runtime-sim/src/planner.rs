@@ -16,7 +16,7 @@ mod scene;
 mod seen;
 mod timing;
 
-use crate::kinematics::arm::{Arm, FINEST_TURN, Joints, Limits};
+use crate::kinematics::arm::{Arm, FINEST_TURN, Joints, Limits, Posture};
 use crate::kinematics::gantry::{Stance, Wrist};
 use crate::kinematics::straight::LINE_STEP;
 use crate::kinematics::{nearest_equivalent, nearest_turn, wrapped};
@@ -297,10 +297,11 @@ impl Planner {
     /// are enough where there are any: it gets out of them again.
     fn candidates(&self, directed: &Joints, wrist: Wrist, transfer: &Transfer) -> [Vec<Candidate>; 2] {
         let (mut wide, mut narrow) = (Vec::new(), Vec::new());
+        let directed = self.arm.posture(directed);
         for turn in (-TURNS..=TURNS).map(|step| f64::from(step) * PI / f64::from(TURNS)) {
             for beyond in BEYOND {
                 let stance = Stance { turn, beyond, wrist };
-                let joints = |tool| self.arm.solve_stance(tool, &stance, directed);
+                let joints = |tool| self.arm.solve_stance(tool, &stance, &directed);
                 let (Some(over), Some(at)) = (joints(transfer.via), joints(transfer.goal)) else { continue };
                 let list = if self.plane.keeps_off(axis(&over)) { &mut wide } else { &mut narrow };
                 list.push(Candidate { stance, over, at });
@@ -319,7 +320,7 @@ impl Planner {
 
     /// The joints at a time of a plan, with whole turns as they are at `near`; none where the reach forbids it. A wrist
     /// changes its side while the torso moves.
-    fn at_time(&self, plan: &Plan, time: f64, near: &Joints) -> Option<Joints> {
+    fn at_time(&self, plan: &Plan, time: f64, near: &Posture) -> Option<Joints> {
         let (part, turned, height) = plan.timing.at(time);
         let ([first, last], [from, to]) = (&plan.stances, &plan.ends);
         let place = if part <= 0.0 {
@@ -329,7 +330,7 @@ impl Planner {
         } else {
             plan.line.at(part * plan.line.length())
         };
-        let standing = |wrist: Wrist, near: &Joints| {
+        let standing = |wrist: Wrist, near: &Posture| {
             let turn = first.turn + turned * (last.turn - first.turn);
             let beyond = first.beyond + part * (last.beyond - first.beyond);
             self.arm.standing_at(place, height, &Stance { turn, beyond, wrist }, near)
@@ -337,11 +338,12 @@ impl Planner {
         if first.wrist == last.wrist {
             return standing(last.wrist, near);
         }
+        let from = self.arm.posture(from);
         match plan.timing.passed(time) {
-            0.0 => standing(first.wrist, from),
-            1.0 => standing(last.wrist, from),
+            0.0 => standing(first.wrist, &from),
+            1.0 => standing(last.wrist, &from),
             share => {
-                let (here, there) = (standing(first.wrist, from)?, standing(last.wrist, from)?);
+                let (here, there) = (standing(first.wrist, &from)?, standing(last.wrist, &from)?);
                 Some(here.map(|i, angle| angle + share * (there[i] - angle)))
             }
         }
@@ -354,7 +356,7 @@ impl Planner {
         let mut knots: Vec<Knot> = Vec::with_capacity(count as usize);
         for i in 1..count {
             let near = knots.last().map_or(from, |knot| &knot.joints);
-            knots.push(Knot::new(self.at_time(plan, plan.time(i), near)?));
+            knots.push(Knot::new(self.at_time(plan, plan.time(i), &self.arm.posture(near))?));
         }
         let tool = to.len() - 1;
         let reached = knots.last().map_or(from[tool], |knot| knot.joints[tool]);

@@ -37,6 +37,13 @@ pub struct Frames {
     count: usize,
 }
 
+/// Joints of a robot, and the pose of its tool at them.
+#[derive(Clone, Copy, Debug)]
+pub struct Posture {
+    pub joints: Joints,
+    pub tool: Pose,
+}
+
 /// What a robot's joints can do at most.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
@@ -318,9 +325,10 @@ impl Arm {
 
     /// Joints for a place of the tool at this stance, near `from`; a part keeps its direction. None where the limits
     /// forbid it, and for a robot without a torso.
-    pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Joints) -> Option<Joints> {
-        let joints = Joints::new(&self.gantry()?.solve_stance(tool, stance, &from.array())?);
-        Some(Self::within_limits(self.with_direction_of(from, joints)))
+    pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Posture) -> Option<Joints> {
+        let near = (&from.joints.array(), from.tool.position);
+        let joints = Joints::new(&self.gantry()?.solve_stance(tool, stance, near)?);
+        Some(Self::within_limits(self.with_direction(&from.joints, direction_of(&from.tool), joints)))
     }
 
     /// How the robot stands at these joints; none for a robot without a torso.
@@ -330,10 +338,10 @@ impl Arm {
 
     /// Joints at this stance with the torso's axis here and the tool at this height, near `from`; a part keeps its
     /// direction, whatever the limits of the last joint. None where the reach forbids it, and for a robot without a torso.
-    pub fn standing_at(&self, torso: Point, height: f64, stance: &Stance, from: &Joints) -> Option<Joints> {
-        let pose = self.tool_pose(from);
-        let joints = self.gantry()?.standing_near(torso, height, stance, (&from.array(), pose.position))?;
-        Some(self.with_direction(from, direction_of(&pose), Joints::new(&joints)))
+    pub fn standing_at(&self, torso: Point, height: f64, stance: &Stance, from: &Posture) -> Option<Joints> {
+        let near = (&from.joints.array(), from.tool.position);
+        let joints = self.gantry()?.standing_near(torso, height, stance, near)?;
+        Some(self.with_direction(&from.joints, direction_of(&from.tool), Joints::new(&joints)))
     }
 
     /// Joints for a place of the tool with rails, torso and the direction of the wrist as they are; none where the
@@ -350,6 +358,10 @@ impl Arm {
 
     pub fn has_torso(&self) -> bool {
         self.gantry().is_some()
+    }
+
+    pub fn posture(&self, joints: &Joints) -> Posture {
+        Posture { joints: *joints, tool: self.tool_pose(joints) }
     }
 
     pub fn tool_pose(&self, joints: &Joints) -> Pose {

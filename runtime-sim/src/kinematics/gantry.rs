@@ -131,9 +131,9 @@ impl Gantry {
     /// Joints for a tool at this stance, with room to spare; none if rails, torso or reach forbid it. They depend on
     /// tool and stance alone but for the whole turns that the joints of the arm have at `from`, and the last joint,
     /// which is that of `from`.
-    pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Joints) -> Option<Joints> {
+    pub fn solve_stance(&self, tool: Point, stance: &Stance, from: (&Joints, Point)) -> Option<Joints> {
         let (x, y) = self.torso_at(tool, SHOULDER + stance.beyond, stance.turn)?;
-        self.standing_at(Point::new(x, y, 0.0), tool.z, stance, from)
+        self.standing_near(Point::new(x, y, 0.0), tool.z, stance, from)
     }
 
     /// Joints for a tool with rails, torso and the direction of the wrist as they are.
@@ -164,13 +164,8 @@ impl Gantry {
         Stance { turn, beyond: ahead - SHOULDER, wrist: Wrist::of_angle(joints[7]) }
     }
 
-    /// Joints at this stance with the torso's axis here and the tool at this height, as [`Self::solve_stance`] has
-    /// them; none if the reach forbids it.
-    fn standing_at(&self, torso: Point, height: f64, stance: &Stance, from: &Joints) -> Option<Joints> {
-        self.standing_near(torso, height, stance, (from, self.tool(from)))
-    }
-
-    /// The same near joints at which the tool is there.
+    /// Joints at this stance with the torso's axis here and the tool at this height, as [`Self::solve_stance`] has them, near
+    /// joints at which the tool is there; none if the reach forbids it.
     pub fn standing_near(
         &self,
         torso: Point,

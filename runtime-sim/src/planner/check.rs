@@ -73,7 +73,8 @@ impl Planner {
         if last == 0 {
             return true;
         }
-        let Some(reached) = self.at_time(plan, plan.time(last), from) else { return false };
+        let posture = self.arm.posture(from);
+        let Some(reached) = self.at_time(plan, plan.time(last), &posture) else { return false };
         let tool = to.len() - 1;
         // What turns on its path has another direction there than here.
         let load = if turned(to[tool], reached[tool]).1 == 0.0 { load } else { Load::None };
@@ -81,7 +82,7 @@ impl Planner {
         let is_apart = |part: f64| {
             let sample = libm::round(part * f64::from(plan.samples())) as u32;
             let time = plan.time(sample.clamp(1, last));
-            let Some(joints) = self.at_time(plan, time, from) else { return false };
+            let Some(joints) = self.at_time(plan, time, &posture) else { return false };
             let Asked { load, margin } = around.asked(self, &joints);
             let margin = margin * ROUNDED;
             self.scene.gap(&around.near, &joints, load, [margin; 2]) >= margin

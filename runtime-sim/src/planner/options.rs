@@ -9,35 +9,44 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::sync::Arc;
 
-/// One of the paths: by numbers of the candidate, of how far the robot draws back, and of the rise.
+/// One of the paths on a trip: by numbers of the candidate and of the rise.
 #[derive(Clone, Copy)]
 pub struct Choice {
     pub candidate: usize,
-    back: usize,
     pub rise: usize,
     turning: Turning,
     clear: f64,
 }
 
-/// How long the torso's line of a choice is.
+/// What a time in the queue is known of, by its number.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Length {
-    /// Straight on, as if nothing was in the way.
-    AtLeast,
-    Known,
+enum Timed {
+    /// No choice of the trip takes less, as if its torso could go straight.
+    Straight(usize),
+    /// The same with the torso round the obstacles.
+    Trip(usize),
+    Choice(usize),
 }
 
-/// A queue: all choices are timed as if the torso could go straight, and what is next is timed again as it goes round
-/// obstacles.
+/// Choices that differ only in when tool and torso move.
+#[derive(Clone, Copy)]
+struct Trip {
+    candidate: usize,
+    back: usize,
+    rise: usize,
+}
+
+/// A queue: trips are timed by the choice that takes the least, as if the torso could go straight; what is next is timed
+/// again as it goes round obstacles, and then choice by choice.
 pub struct Options<'a> {
     planner: &'a Planner,
     task: &'a Task<'a>,
     first: &'a Stance,
     candidates: &'a [Candidate],
     effort: &'a Effort,
-    choices: Vec<Choice>,
+    trips: Vec<Trip>,
     /// By time, as the bits of a number that is not negative.
-    queue: BinaryHeap<Reverse<(u64, usize, Length)>>,
+    queue: BinaryHeap<Reverse<(u64, Timed)>>,
     /// Where the torso is when it has drawn back at the beginning; none beyond the ends of the rails.
     starts: Vec<Option<Start>>,
     /// How the tool is lowered to a candidate, from the top of a rise; none if something is in the way there or at its end.
@@ -47,6 +56,20 @@ pub struct Options<'a> {
     first_lifts: Vec<Option<Arc<Lift>>>,
     /// By candidate and rise. Those that are as far beyond the shoulder have the same: the turn of the torso does not matter.
     last_lifts: Vec<Vec<Option<Arc<Lift>>>>,
+}
+
+/// When tool and torso can move on a trip, in so many manners; none takes less than the first one.
+const MOTIONS: usize = TURNINGS.len() * CLEARS.len();
+/// What is rounded in a time, as a part of it.
+const ROUNDED: f64 = 1e-12;
+
+impl Trip {
+    /// By its number below [`MOTIONS`].
+    fn choice(&self, motion: usize) -> Choice {
+        let Self { candidate, rise, .. } = *self;
+        let (turning, clear) = (TURNINGS[motion / CLEARS.len()], CLEARS[motion % CLEARS.len()]);
+        Choice { candidate, rise, turning, clear }
+    }
 }
 
 impl<'a> Options<'a> {
@@ -67,7 +90,7 @@ impl<'a> Options<'a> {
             first,
             candidates,
             effort,
-            choices: Vec::new(),
+            trips: Vec::new(),
             queue: BinaryHeap::new(),
             starts: effort.backs.iter().map(|[back, _]| start(*back)).collect(),
             falls: BTreeMap::new(),
@@ -76,18 +99,9 @@ impl<'a> Options<'a> {
             last_lifts: last_lifts(planner, task, candidates),
         };
         for candidate in 0..candidates.len() {
-            let length = options.least_length(candidate);
             for back in 0..effort.backs.len() {
                 for rise in 0..task.rises.len() {
-                    for (turning, clear) in TURNINGS.into_iter().flat_map(|t| CLEARS.map(|clear| (t, clear)))
-                    {
-                        let choice = Choice { candidate, back, rise, turning, clear };
-                        if let Some(timing) = options.timing(&choice, length) {
-                            let number = options.choices.len();
-                            options.queue.push(Reverse((timing.end.to_bits(), number, Length::AtLeast)));
-                            options.choices.push(choice);
-                        }
-                    }
+                    options.put_straight(Trip { candidate, back, rise });
                 }
             }
         }
@@ -97,25 +111,63 @@ impl<'a> Options<'a> {
     /// The next one in time whose end is free, with the line of the torso's axis and how the tool is lowered.
     pub fn next(&mut self) -> Option<(Choice, Timing, Arc<Line>, Vertical)> {
         loop {
-            let Reverse((_, number, length)) = self.queue.pop()?;
-            let choice = self.choices[number];
-            let Some(fall) = self.fall(&choice) else { continue };
-            let Some(line) = self.line(&choice) else { continue };
-            let timing = self.timing(&choice, line.length())?;
-            if length == Length::Known {
-                return Some((choice, timing, line, fall));
+            let Reverse((_, timed)) = self.queue.pop()?;
+            match timed {
+                Timed::Straight(trip) => self.put_trip(trip),
+                Timed::Trip(trip) => self.put_choices(trip),
+                Timed::Choice(number) => {
+                    let trip = self.trips[number / MOTIONS];
+                    let (Some(fall), Some(line)) = (self.fall(&trip), self.line(&trip)) else { continue };
+                    let choice = trip.choice(number % MOTIONS);
+                    return Some((choice, self.timing(&choice, line.length())?, line, fall));
+                }
             }
-            self.queue.push(Reverse((timing.end.to_bits(), number, Length::Known)));
         }
     }
 
-    fn fall(&mut self, choice: &Choice) -> Option<Vertical> {
-        let (planner, task, candidate) = (self.planner, self.task, &self.candidates[choice.candidate]);
+    /// A new trip. Rounded corners are short cuts: no line is shorter than straight on.
+    fn put_straight(&mut self, trip: Trip) {
+        let [from, to] = [self.task.from, &self.candidates[trip.candidate].over].map(axis);
+        let number = self.trips.len();
+        self.trips.push(trip);
+        self.put(Timed::Straight(number), &trip.choice(0), (to - from).length());
+    }
+
+    /// A trip whose end is free, round the obstacles.
+    fn put_trip(&mut self, number: usize) {
+        let trip = self.trips[number];
+        if self.fall(&trip).is_some()
+            && let Some(line) = self.line(&trip)
+        {
+            self.put(Timed::Trip(number), &trip.choice(0), line.length());
+        }
+    }
+
+    fn put_choices(&mut self, number: usize) {
+        let trip = self.trips[number];
+        let Some(line) = self.line(&trip) else { return };
+        for motion in 0..MOTIONS {
+            self.put(Timed::Choice(number * MOTIONS + motion), &trip.choice(motion), line.length());
+        }
+    }
+
+    /// By the time of a choice, with a line so long.
+    fn put(&mut self, timed: Timed, choice: &Choice, length: f64) {
+        let Some(Timing { end, .. }) = self.timing(choice, length) else { return };
+        let least = match timed {
+            Timed::Straight(_) | Timed::Trip(_) => end * (1.0 - ROUNDED),
+            Timed::Choice(_) => end,
+        };
+        self.queue.push(Reverse((least.to_bits(), timed)));
+    }
+
+    fn fall(&mut self, trip: &Trip) -> Option<Vertical> {
+        let (planner, task, candidate) = (self.planner, self.task, &self.candidates[trip.candidate]);
         let fall = || {
-            let rise = &task.rises[choice.rise];
+            let rise = &task.rises[trip.rise];
             planner.is_free_at_place(candidate).then(|| planner.fall(task, candidate, rise)).flatten()
         };
-        *self.falls.entry((choice.candidate, choice.rise)).or_insert_with(fall)
+        *self.falls.entry((trip.candidate, trip.rise)).or_insert_with(fall)
     }
 
     fn timing(&self, choice: &Choice, length: f64) -> Option<Timing> {
@@ -125,18 +177,12 @@ impl<'a> Options<'a> {
         Some(Timing::new(length, [self.first, stance], lifts, clear, turning, self.task.limits))
     }
 
-    fn line(&mut self, choice: &Choice) -> Option<Arc<Line>> {
+    fn line(&mut self, trip: &Trip) -> Option<Arc<Line>> {
         let (planner, task, candidates) = (self.planner, self.task, self.candidates);
-        let back = self.effort.backs[choice.back];
-        let start = self.starts[choice.back].as_mut()?;
-        let line = || planner.line(task.from, start, &candidates[choice.candidate].over, back);
-        self.lines.entry((choice.candidate, choice.back)).or_insert_with(line).clone()
-    }
-
-    /// Rounded corners are short cuts: no line is shorter than straight on.
-    fn least_length(&self, candidate: usize) -> f64 {
-        let [from, to] = [self.task.from, &self.candidates[candidate].over].map(axis);
-        (to - from).length()
+        let back = self.effort.backs[trip.back];
+        let start = self.starts[trip.back].as_mut()?;
+        let line = || planner.line(task.from, start, &candidates[trip.candidate].over, back);
+        self.lines.entry((trip.candidate, trip.back)).or_insert_with(line).clone()
     }
 }
 
