@@ -112,6 +112,17 @@ impl Joints {
 }
 
 impl Frames {
+    /// Of these links, the first [`MOST_JOINTS`] at most.
+    #[inline]
+    pub(super) fn of(links: impl Iterator<Item = Pose>) -> Self {
+        let mut frames = Self { poses: [Pose::IDENTITY; MOST_JOINTS], count: 0 };
+        for (frame, link) in frames.poses.iter_mut().zip(links) {
+            *frame = link;
+            frames.count += 1;
+        }
+        frames
+    }
+
     #[inline]
     pub(super) fn new(poses: &[Pose]) -> Self {
         let mut frames = Self { poses: [Pose::IDENTITY; MOST_JOINTS], count: poses.len() };

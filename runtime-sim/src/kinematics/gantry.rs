@@ -243,18 +243,13 @@ impl Gantry {
 
     /// Of each link behind a joint, world frame: the bridge and the trolley, which do not turn, and the torso,
     /// all at the height of the shoulder and the bridge at y = 0; then [`ur10::frames`].
-    pub fn frames(&self, joints: &Joints) -> [Pose; JOINTS] {
+    pub fn frames(&self, joints: &Joints) -> Frames {
         let [x, y, _, angles @ ..] = joints;
         let torso = self.torso_pose(joints);
         let base = torso.then(&MOUNT);
-        let arm = ur10::frames(angles);
         let rail = |y: f64| Pose { position: Point::new(*x, y, self.shoulder), ..Pose::IDENTITY };
-        let mut frames = [torso; JOINTS];
-        [frames[0], frames[1]] = [rail(0.0), rail(*y)];
-        for (frame, link) in frames[3..].iter_mut().zip(&arm) {
-            *frame = base.then(link);
-        }
-        frames
+        let carriers = [rail(0.0), rail(*y), torso].into_iter();
+        Frames::of(carriers.chain(ur10::frames(angles).iter().map(|link| base.then(link))))
     }
 
     /// The joints, from the world on.
@@ -331,7 +326,7 @@ impl Solver for Gantry {
     }
 
     fn frames(&self, joints: &arm::Joints) -> Frames {
-        Frames::new(&Gantry::frames(self, &joints.array()))
+        Gantry::frames(self, &joints.array())
     }
 
     fn links(&self) -> Vec<Link> {

@@ -164,4 +164,17 @@ mod tests {
             assert_same(&other.then(&pose.seen_from(&other)), &pose);
         }
     }
+
+    #[test]
+    fn a_link_is_a_turn_a_shift_and_a_turn() {
+        let mut random = Random::new(6);
+        for twist in [(Twist::None, 0.0), (Twist::Quarter, FRAC_PI_2), (Twist::Back, -FRAC_PI_2)] {
+            let mut angle = || random.between(-PI, PI);
+            let before = Pose::turned(Point::new(angle(), angle(), angle()), angle()).then(&about_y(angle()));
+            let [turn, along_z, along_x] = [angle(), angle(), angle()];
+            let shift = Pose { position: Point::new(along_x, 0.0, along_z), ..Pose::IDENTITY };
+            let link = Pose::turned(Point::default(), turn).then(&shift).then(&about_x(twist.1));
+            assert_same(&before.behind_link(turn, along_z, along_x, twist.0), &before.then(&link));
+        }
+    }
 }

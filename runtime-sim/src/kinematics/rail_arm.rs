@@ -143,15 +143,10 @@ impl RailArm {
     }
 
     /// Of each link behind a joint, world frame: the carriage with the arm's base, then [`ur10::frames`].
-    pub fn frames(&self, joints: &Joints) -> [Pose; JOINTS] {
+    pub fn frames(&self, joints: &Joints) -> Frames {
         let [_, angles @ ..] = joints;
         let base = self.base(joints);
-        let arm = ur10::frames(angles);
-        let mut frames = [base; JOINTS];
-        for (frame, link) in frames[1..].iter_mut().zip(&arm) {
-            *frame = base.then(link);
-        }
-        frames
+        Frames::of([base].into_iter().chain(ur10::frames(angles).iter().map(|link| base.then(link))))
     }
 
     /// The joints, from the world on.
@@ -204,7 +199,7 @@ impl Solver for RailArm {
     }
 
     fn frames(&self, joints: &arm::Joints) -> Frames {
-        Frames::new(&RailArm::frames(self, &joints.array()))
+        RailArm::frames(self, &joints.array())
     }
 
     fn links(&self) -> Vec<Link> {
