@@ -63,6 +63,7 @@ use declaration::Unit;
 use externals::Externals;
 use globals::{Globals, Index};
 use image::{Image, Wired};
+use names::Names;
 use program::Blocks;
 use runtime_sim::io_trace::Columns;
 use std::collections::{BTreeSet, HashSet};
@@ -82,23 +83,23 @@ pub fn files(system: &System, sources: &Sources) -> Files {
 /// The files of the folder `plc/`, with the addresses of a map for [`points`] of the same system. And the columns
 /// of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
 pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Columns) {
-    with_program(system, sources, map, |program| {
-        let mut files = Files::new();
-        program.portable(Flavours::WithoutPlcopen, &Translations::default(), &mut files);
-        program.with_structures(Flavours::WithoutPlcopen, &mut files);
-        (files, program.columns())
-    })
+    let named = Named::new(system, map);
+    let program = named.program(system, sources, map);
+    let mut files = Files::new();
+    program.portable(Flavours::WithoutPlcopen, &Translations::default(), &mut files);
+    program.with_structures(Flavours::WithoutPlcopen, &mut files);
+    (files, program.columns())
 }
 
 /// The text of [`mapped`] as PLCopen XML, in the two flavours that tools import; files of the folder `plc/`.
 pub fn plcopen(system: &System, sources: &Sources, map: &IoMap) -> Files {
-    with_program(system, sources, map, |program| {
-        let mut files = Files::new();
-        program.plcopen(&mut files);
-        let places = Places::shared(program.shared);
-        program.codesys_xml(&program.structured(&places, Enumerated::ByType), &mut files);
-        files
-    })
+    let named = Named::new(system, map);
+    let program = named.program(system, sources, map);
+    let mut files = Files::new();
+    program.plcopen(&mut files);
+    let places = Places::shared(program.shared);
+    program.codesys_xml(&program.structured(&places, Enumerated::ByType), &mut files);
+    files
 }
 
 /// In what the program is written.
@@ -114,24 +115,34 @@ pub struct Program<'a> {
     shared: Shared<'a>,
     map: &'a IoMap,
     line: Line<'a>,
-    wired: Vec<Wired>,
+    wired: &'a [Wired],
     /// The names of MAIN.
     names: &'a Scope,
 }
 
-/// Gives the program of a line. [`Program::portable`] and [`Program::with_structures`] give all files of the folder
-/// `plc/`, each half of them, and may do it at the same time.
-pub fn with_program<T>(
-    system: &System,
-    sources: &Sources,
-    map: &IoMap,
-    write: impl FnOnce(Program) -> T,
-) -> T {
-    let names = names::names(system);
-    let mut program = names.program.inner();
-    let image = image::image(system, &names, map, &mut program);
-    let shared = Shared { system, sources, names: &names };
-    write(Program { shared, map, line: line(shared, &image), wired: image.wired, names: &program })
+/// The names of a line and its process image, of which its program is made.
+pub struct Named {
+    names: Names,
+    /// The names of MAIN.
+    scope: Scope,
+    image: Image,
+}
+
+impl Named {
+    pub fn new(system: &System, map: &IoMap) -> Self {
+        let names = names::names(system);
+        let mut scope = names.program.inner();
+        let image = image::image(system, &names, map, &mut scope);
+        Self { names, scope, image }
+    }
+
+    /// The program of the same line. [`Program::portable`] and [`Program::with_structures`] give all files of the
+    /// folder `plc/`, each half of them, and may do it at the same time.
+    pub fn program<'a>(&'a self, system: &'a System, sources: &'a Sources, map: &'a IoMap) -> Program<'a> {
+        let shared = Shared { system, sources, names: &self.names };
+        let line = line(shared, &self.image);
+        Program { shared, map, line, wired: &self.image.wired, names: &self.scope }
+    }
 }
 
 impl Program<'_> {
@@ -192,7 +203,7 @@ impl Program<'_> {
 
     fn siemens(&self, places: &Places, files: &mut dyn Sink) {
         let by_number = self.structured(places, Enumerated::ByNumber);
-        let copies = siemens::copies(&self.wired, self.map.counting());
+        let copies = siemens::copies(self.wired, self.map.counting());
         siemens::files(self.shared, &by_number, &copies, &mut Folder { name: "siemens", sink: files });
     }
 }
