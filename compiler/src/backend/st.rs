@@ -30,6 +30,7 @@ mod guard;
 mod image;
 mod masks;
 mod modes;
+mod name;
 mod names;
 mod points;
 mod print;

@@ -4,6 +4,7 @@ use super::attributes::{Attribute, OF_WHAT_IS_SHOWN};
 use super::body::Body;
 use super::code::Ex;
 use super::externals::Externals;
+use super::name::Name;
 use super::print::{Dialect, comment};
 use crate::io_map::Raw;
 use crate::ir::{Scalar, Value};
@@ -24,7 +25,7 @@ pub enum Basic {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    pub name: String,
+    pub name: Name,
     pub basic: Basic,
     /// In the process image, such as `%IX0.3`.
     pub address: Option<String>,
@@ -47,8 +48,8 @@ pub struct Variable {
 /// An instance of a function block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instance {
-    pub name: String,
-    pub block: String,
+    pub name: Name,
+    pub block: Name,
     pub comment: String,
     /// Its block has variables that outlast a loss of power.
     pub is_retained: bool,
@@ -113,10 +114,9 @@ impl From<Raw> for Basic {
 }
 
 impl Variable {
-    pub fn new(name: impl Into<String>, basic: Basic) -> Self {
-        let name = name.into();
+    pub fn new(name: impl Into<Name>, basic: Basic) -> Self {
         Self {
-            name,
+            name: name.into(),
             basic,
             address: None,
             elements: None,

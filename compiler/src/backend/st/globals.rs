@@ -11,6 +11,7 @@ use super::context::Shared;
 use super::declaration::{Basic, Variable, constants};
 use super::image::Image;
 use super::modes;
+use super::name::Name;
 use super::names::RobotNames;
 use super::restart;
 use super::role::Members;
@@ -144,7 +145,7 @@ impl<'a> Index<'a> {
     }
 
     /// Those that are among these.
-    pub fn among(&self, names: &HashSet<String>) -> impl Iterator<Item = &'a Variable> {
+    pub fn among(&self, names: &HashSet<Name>) -> impl Iterator<Item = &'a Variable> {
         let mut numbers: Vec<usize> =
             names.iter().filter_map(|name| self.numbers.get(name.as_str()).copied()).collect();
         numbers.sort_unstable();
@@ -384,7 +385,7 @@ fn shown(shared: Shared) -> Vec<Table> {
 /// One array for each variable of a value.
 fn table(
     scalar: Scalar,
-    held: &[String],
+    held: &[Name],
     values: impl Iterator<Item = Vec<Ex>> + Clone,
     comments: &[Arc<str>],
 ) -> Vec<Table> {
@@ -458,7 +459,7 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
 }
 
 /// The globals that hold an array of parameters of a robot.
-pub fn array_names<'a>(shared: Shared<'a>, robot: usize, parameter: usize) -> &'a [String] {
+pub fn array_names<'a>(shared: Shared<'a>, robot: usize, parameter: usize) -> &'a [Name] {
     let id = shared.system.instances[robot].automaton;
     let table = &shared.names.automata[id.0].tables[parameter];
     if table.is_empty() { &shared.names.robots[robot].parameters[parameter] } else { table }

@@ -11,6 +11,7 @@ use super::filling::Filling;
 use super::globals::{Globals, Table};
 use super::image::Image;
 use super::modes::{self, PutOut};
+use super::name::Name;
 use super::names::{ELEMENT, ROUNDED};
 use super::property;
 use super::restart;
@@ -50,7 +51,7 @@ pub fn statements<'a>(shared: Shared<'a>, blocks: &Arc<Vec<Option<Blocks<'a>>>>,
     });
     let instances = retained.map(|robot| shared.names.robots[robot].instance.as_str());
     first.extend(restart::begin(shared, instances));
-    let cold = vec![("cold_start".to_string(), not(name("init_done")))];
+    let cold = vec![("cold_start".into(), not(name("init_done")))];
     first.push(Stmt::Call { instance: "layout".into(), arguments: cold });
     first.extend(commented("Inputs: from raw values.", &image.inputs));
     first.push(Stmt::Comment(
@@ -98,7 +99,7 @@ pub fn program<'a>(
     shared: Shared,
     blocks: &[Option<Blocks>],
     body: Body<'a>,
-    used: &HashSet<String>,
+    used: &HashSet<Name>,
 ) -> Unit<'a> {
     let instance = |name: &str, block: &str, comment: String| Instance {
         name: name.into(),

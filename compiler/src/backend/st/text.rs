@@ -4,6 +4,7 @@ use super::Line;
 use super::attributes;
 use super::context::Shared;
 use super::declaration::{Unit, globals};
+use super::name::Name;
 use super::names::EnumNames;
 use super::print::{Dialect, harmless};
 use super::watchdog;
@@ -18,7 +19,7 @@ use std::fmt::{self, Write};
 struct Header {
     made_from: String,
     /// A port, if there is one.
-    example: Option<String>,
+    example: Option<Name>,
 }
 
 #[derive(Template)]

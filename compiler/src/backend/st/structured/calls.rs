@@ -8,10 +8,10 @@ use crate::backend::st::code::{Ex, Stmt, name};
 use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::{Basic, Unit, Variable, constants};
 use crate::backend::st::globals::{Table, about};
+use crate::backend::st::name::Name;
 use crate::ir::{Extent, Parameter, Scalar, Value};
 use crate::naming::st::Scope;
 use std::collections::{BTreeMap, HashMap};
-use std::sync::Arc;
 
 pub struct Calls<'a> {
     shared: Shared<'a>,
@@ -22,7 +22,7 @@ pub struct Calls<'a> {
     /// With what the instances have.
     pub places: Places,
     /// Points that robots are given, by robot and number of the parameter.
-    named: BTreeMap<(usize, usize), String>,
+    named: BTreeMap<(usize, usize), Name>,
 }
 
 impl<'a> Calls<'a> {
@@ -34,7 +34,7 @@ impl<'a> Calls<'a> {
         let robots = robots.flat_map(|(robot, names)| {
             [(names.instance.as_str(), robot), (names.properties.as_str(), robot)]
         });
-        let of_instances = blocks.iter().map(|(name, i)| (name.to_string(), given[*i].places.clone()));
+        let of_instances = blocks.iter().map(|(name, i)| (Name::from(*name), given[*i].places.clone()));
         let places = places.of_program(of_instances.collect());
         Self { shared, blocks, robots: robots.collect(), places, named: BTreeMap::new(), given }
     }
@@ -43,10 +43,10 @@ impl<'a> Calls<'a> {
         self.blocks.get(instance).map(|i| &self.given[*i])
     }
 
-    pub fn call(&self, instance: &str, arguments: &[(String, Ex)]) -> Stmt {
+    pub fn call(&self, instance: &Name, arguments: &[(Name, Ex)]) -> Stmt {
         let given = self.given(instance);
         let shared = given.map_or(&[][..], |given| &given.shared);
-        let mut all: Vec<(String, Ex)> = Vec::with_capacity(arguments.len() + shared.len());
+        let mut all: Vec<(Name, Ex)> = Vec::with_capacity(arguments.len() + shared.len());
         for (number, (argument, value)) in arguments.iter().enumerate() {
             let value = self.places.ex(value);
             match given.and_then(|given| given.point_of(number, argument)) {
@@ -55,8 +55,8 @@ impl<'a> Calls<'a> {
                         let whole = match value {
                             Ex::Part(whole, _) => *whole,
                             // Of an array the variable itself.
-                            Ex::Name(array) => name(&array),
-                            _ => self.named.get(&self.parameter(instance, of)).map_or(value, |of| name(of)),
+                            Ex::Name(array) => name(array),
+                            _ => self.named.get(&self.parameter(instance, of)).map_or(value, name),
                         };
                         all.push((of.clone(), whole));
                     }
@@ -65,7 +65,7 @@ impl<'a> Calls<'a> {
             }
         }
         all.extend(shared.iter().map(|shared| (shared.clone(), name(shared))));
-        Stmt::Call { instance: instance.into(), arguments: all }
+        Stmt::Call { instance: instance.clone(), arguments: all }
     }
 
     /// Names the variables that hold points which robots are given, in the order of the calls.
@@ -112,7 +112,7 @@ impl<'a> Calls<'a> {
         let parameter = &self.shared.system.model.automaton(own.automaton).parameters[number];
         let variable = scope.take(&format!("{}_{}", own.name, parameter.name));
         let value = own.parameters[number].first().copied().unwrap_or(Value::Point([0.0; 3]));
-        let fields = COORDINATES.iter().map(|c| Arc::from(*c)).zip(constants(value)).collect();
+        let fields = COORDINATES.map(Name::from).into_iter().zip(constants(value)).collect();
         let declared = Variable::new(&variable, Basic::Lreal).with_initial(Ex::Fields(fields));
         let comments = about(&parameter.doc, String::new());
         Table::declared(Variable { structure: Some(POINT.into()), comments, ..declared })

@@ -9,6 +9,7 @@ use crate::backend::st::code::Ex;
 use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::{Basic, Variable};
 use crate::backend::st::globals::{Globals, Table, about, meaning, rows};
+use crate::backend::st::name::Name;
 use crate::backend::st::restart;
 use crate::backend::st::values::{Elements, Field, List};
 use crate::ir::{Extent, InterfaceId, Scalar};
@@ -59,8 +60,7 @@ fn point() -> Structure {
 /// The cells of an interface that are used.
 fn interface(shared: Shared, line: &Line, id: InterfaceId, typed: &Typed) -> Option<(Structure, Variable)> {
     let (interface, names) = (shared.system.model.interface(id), &shared.names.interfaces[id.0]);
-    let is_used =
-        |held: &[String]| line.globals.cells.iter().any(|table| held.contains(&table.variable.name));
+    let is_used = |held: &[Name]| line.globals.cells.iter().any(|table| held.contains(&table.variable.name));
     let cells = interface.cells.iter().zip(&names.cells).zip(&names.fields);
     let fields: Vec<Variable> = cells
         .filter(|((_, held), _)| is_used(held))
@@ -106,7 +106,7 @@ fn table_of_alarms(line: &Line) -> Option<(Structure, Variable)> {
         .collect();
     let (_, first) = columns.first()?;
     let fields = columns.iter().map(|(name, table)| Variable {
-        name: name.to_string(),
+        name: (*name).into(),
         elements: None,
         ..table.variable.clone()
     });
@@ -141,7 +141,7 @@ fn parameters(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> Ve
         Some((place.of.clone(), place.coordinate?))
     };
     let globals = &line.globals;
-    let mut points: BTreeMap<String, Vec<(&str, &Table)>> = BTreeMap::new();
+    let mut points: BTreeMap<Name, Vec<(&str, &Table)>> = BTreeMap::new();
     for table in globals.parameters.iter().chain(&globals.unread) {
         if let Some((point, coordinate)) = of(table) {
             points.entry(point).or_default().push((coordinate, table));
