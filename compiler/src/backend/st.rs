@@ -69,7 +69,7 @@ use program::Blocks;
 use runtime_sim::io_trace::Columns;
 use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
-use structured::{Enumerated, Places, Structure, structured};
+use structured::{Common, Enumerated, Structure, structured};
 
 /// Every point of I/O, in the order of `io.csv`; an [`IoMap`] counts them so.
 pub fn points(system: &System) -> Vec<Point> {
@@ -98,8 +98,8 @@ pub fn plcopen(system: &System, sources: &Sources, map: &IoMap) -> Files {
     let program = named.program(system, sources, map);
     let mut files = Files::new();
     program.plcopen(&mut files);
-    let places = Places::shared(program.shared);
-    program.codesys_xml(&program.structured(&places, Enumerated::ByType), &mut files);
+    let common = Common::new(program.shared, &program.line);
+    program.codesys_xml(&program.structured(&common, Enumerated::ByType), &mut files);
     files
 }
 
@@ -158,9 +158,9 @@ impl Program<'_> {
 
     /// The texts for tools that have structures.
     pub fn with_structures(&self, flavours: Flavours, files: &mut dyn Sink) {
-        let places = Places::shared(self.shared);
-        self.codesys(&places, flavours, files);
-        self.siemens(&places, files);
+        let common = Common::new(self.shared, &self.line);
+        self.codesys(&common, flavours, files);
+        self.siemens(&common, files);
     }
 
     /// The columns of [`mapped`].
@@ -168,8 +168,8 @@ impl Program<'_> {
         columns::columns(self.shared, &self.line.globals)
     }
 
-    fn structured(&self, places: &Places, enumerated: Enumerated) -> Line<'_> {
-        structured(self.shared, &self.line, places, enumerated, &mut self.names.clone())
+    fn structured(&self, common: &Common, enumerated: Enumerated) -> Line<'_> {
+        structured(self.shared, &self.line, common, enumerated, &mut self.names.clone())
     }
 
     fn texts_without_types(&self, files: &mut dyn Sink) {
@@ -190,8 +190,8 @@ impl Program<'_> {
         files.file("portable/project.xml", &xml::plcopen(self.shared, &self.line));
     }
 
-    fn codesys(&self, places: &Places, flavours: Flavours, files: &mut dyn Sink) {
-        let line = self.structured(places, Enumerated::ByType);
+    fn codesys(&self, common: &Common, flavours: Flavours, files: &mut dyn Sink) {
+        let line = self.structured(common, Enumerated::ByType);
         text::codesys(self.shared, &line, &mut Folder { name: "codesys", sink: files });
         if flavours == Flavours::All {
             self.codesys_xml(&line, files);
@@ -202,8 +202,8 @@ impl Program<'_> {
         files.file("codesys/project.xml", &xml::codesys(self.shared, by_type));
     }
 
-    fn siemens(&self, places: &Places, files: &mut dyn Sink) {
-        let by_number = self.structured(places, Enumerated::ByNumber);
+    fn siemens(&self, common: &Common, files: &mut dyn Sink) {
+        let by_number = self.structured(common, Enumerated::ByNumber);
         let copies = siemens::copies(self.wired, self.map.counting());
         siemens::files(self.shared, &by_number, &copies, &mut Folder { name: "siemens", sink: files });
     }

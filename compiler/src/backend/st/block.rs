@@ -41,6 +41,16 @@ pub enum Origin {
     AlarmEntry,
 }
 
+impl Origin {
+    /// The parameter of which it is a part.
+    pub fn parameter(&self) -> Option<usize> {
+        match self {
+            Origin::Parameter { parameter, .. } => Some(*parameter),
+            _ => None,
+        }
+    }
+}
+
 /// A variable that a block of a type may need.
 pub struct Candidate {
     pub variable: Variable,

@@ -34,7 +34,7 @@ pub struct Table {
 pub struct Globals {
     pub system: Vec<Variable>,
     /// For each robot its ports.
-    pub ports: Vec<Vec<Arc<Variable>>>,
+    pub ports: Arc<Vec<Vec<Arc<Variable>>>>,
     /// Raw values at their addresses.
     pub raw: Vec<Variable>,
     pub cells: Vec<Table>,
@@ -67,7 +67,7 @@ impl Globals {
         let ports = ports(shared).into_iter();
         Self {
             system: system(shared).into_iter().map(located).collect(),
-            ports: ports.map(|of| of.into_iter().map(|v| Arc::new(located(v))).collect()).collect(),
+            ports: Arc::new(ports.map(|of| of.into_iter().map(|v| Arc::new(located(v))).collect()).collect()),
             raw: image.raw.clone(),
             cells: cells(shared),
             parameters: parameters(shared),
@@ -121,8 +121,16 @@ impl Globals {
     }
 
     pub fn all(&self) -> impl Iterator<Item = &Variable> {
+        self.system.iter().chain(self.ports()).chain(self.behind_ports())
+    }
+
+    fn all_but_ports(&self) -> impl Iterator<Item = &Variable> {
+        self.system.iter().chain(self.behind_ports())
+    }
+
+    fn behind_ports(&self) -> impl Iterator<Item = &Variable> {
         let tables = self.cells.iter().chain(&self.parameters).chain(&self.alarms).map(|t| &t.variable);
-        self.system.iter().chain(self.ports()).chain(&self.raw).chain(tables)
+        self.raw.iter().chain(tables)
     }
 
     fn ports(&self) -> impl Iterator<Item = &Variable> {
@@ -130,7 +138,7 @@ impl Globals {
     }
 }
 
-/// The globals in their order, to be found by their names.
+/// The globals that blocks may name, in their order, to be found by their names. Ports are given to them.
 pub struct Index<'a> {
     pub globals: &'a Globals,
     all: Vec<&'a Variable>,
@@ -139,7 +147,7 @@ pub struct Index<'a> {
 
 impl<'a> Index<'a> {
     pub fn new(globals: &'a Globals) -> Self {
-        let all: Vec<&Variable> = globals.all().collect();
+        let all: Vec<&Variable> = globals.all_but_ports().collect();
         let numbers = all.iter().enumerate().map(|(number, variable)| (variable.name.as_str(), number));
         Self { globals, numbers: numbers.collect(), all }
     }

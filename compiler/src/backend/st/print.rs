@@ -26,9 +26,9 @@ pub fn comment(text: &str) -> String {
 }
 
 /// Text on one line that neither begins nor ends a comment.
-pub fn harmless(text: &str) -> String {
-    let text = plain::line(text);
-    if text.contains('*') { text.replace("(*", "( *").replace("*)", "* )") } else { text }
+pub fn harmless(text: &str) -> Cow<'_, str> {
+    let text = plain::on_a_line(text);
+    if text.contains('*') { text.replace("(*", "( *").replace("*)", "* )").into() } else { text }
 }
 
 /// Adds a number with a point.

@@ -101,8 +101,7 @@ fn main(shared: Shared, line: &Line, to: &mut Formatter) -> fmt::Result {
     };
     write!(to, "\n{data}\n")?;
     line.functions.iter().try_for_each(|function| write!(to, "\n{}", function_text(function.text)))?;
-    let names: HashSet<&str> = line.globals.all().map(|variable| variable.name.as_str()).collect();
-    line.units().try_for_each(|unit| block(unit, &made_from, &|name| names.contains(name), to))?;
+    line.units().try_for_each(|unit| block(unit, &made_from, to))?;
     let instance = include_str!("../../../../templates/plc/siemens/instance.scl");
     // What its blocks retain, they say.
     match is_retained {
@@ -200,7 +199,7 @@ fn assign_field(place: &mut String, field: &str, value: &Ex, to: &mut Formatter)
     Ok(())
 }
 
-fn block(unit: &Unit, made_from: &str, is_global: &impl Fn(&str) -> bool, to: &mut Formatter) -> fmt::Result {
+fn block(unit: &Unit, made_from: &str, to: &mut Formatter) -> fmt::Result {
     let constants = Constants::of(unit);
     let instance = |i: &Instance, f: &mut Formatter| {
         writeln!(f, "    {} : \"{}\";{}", quoted(&i.name), i.block, i.about())
@@ -208,13 +207,13 @@ fn block(unit: &Unit, made_from: &str, is_global: &impl Fn(&str) -> bool, to: &m
     let constant = |(name, member): (&String, &Member), f: &mut Formatter| {
         writeln!(f, "    {} : DINT := {};", of_constant(name), member.value)
     };
-    let given: BTreeSet<&str> =
-        unit.inputs.iter().chain(&unit.references).map(|variable| variable.name.as_str()).collect();
-    let is_global = |name: &str| is_global(name) && !given.contains(name);
-    let own = Names { is_global: &is_global, constants: &constants };
+    let declared = [&unit.inputs, &unit.outputs, &unit.references, &unit.variables].into_iter().flatten();
+    let declared = declared.map(|variable| variable.name.as_str());
+    let own = declared.chain(unit.instances.iter().map(|instance| instance.name.as_str())).collect();
+    let names = Names { own, constants: &constants };
     let text = Block {
         name: if unit.name == "MAIN" { CALLER } else { &unit.name },
-        comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),
+        comments: unit.comments.iter().map(|line| harmless(line.trim()).into_owned()).collect(),
         made_from,
         sections: part(|f| {
             sections("VAR_INPUT", &unit.inputs, f)?;
@@ -225,7 +224,7 @@ fn block(unit: &Unit, made_from: &str, is_global: &impl Fn(&str) -> bool, to: &m
             declaration::block("VAR CONSTANT", constants.in_order().into_iter(), constant, f)
         }),
         body: part(|f| {
-            let writer = Writer { dialect: DIALECT, names: &own };
+            let writer = Writer { dialect: DIALECT, names: &names };
             unit.body.pieces().try_for_each(|piece| writer.statements(piece.iter(), 1, f))
         }),
     };
@@ -333,16 +332,17 @@ fn labels<'a>(statements: &'a [Stmt], found: &mut Vec<&'a Member>) {
 }
 
 /// Names as SCL writes them.
-struct Names<'a, G> {
-    is_global: &'a G,
+struct Names<'a> {
+    /// What the block declares; all else is shared.
+    own: HashSet<&'a str>,
     constants: &'a Constants,
 }
 
-impl<G: Fn(&str) -> bool> Notation for Names<'_, G> {
+impl Notation for Names<'_> {
     fn variable(&self, name: &str, text: &mut String) {
-        match (self.is_global)(name) {
-            true => text.extend(["\"", SHARED, "\"."]),
-            false => text.push('#'),
+        match self.own.contains(name) {
+            true => text.push('#'),
+            false => text.extend(["\"", SHARED, "\"."]),
         }
         push_quoted(name, text);
     }

@@ -150,7 +150,7 @@ fn unit<'a>(made_from: &'a str, unit: &'a Unit<'a>, dialect: Dialect) -> Part<'a
         pragmas: attributes::pragmas(unit.attributes(dialect)),
         keyword: if unit.name == "MAIN" { "PROGRAM" } else { "FUNCTION_BLOCK" },
         name: &unit.name,
-        comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),
+        comments: unit.comments.iter().map(|line| harmless(line.trim()).into_owned()).collect(),
         made_from,
         declarations: part(move |f| unit.declarations(dialect, f)),
         body: part(move |f| body(unit, dialect, f)),
@@ -175,7 +175,8 @@ pub fn made_from(shared: Shared) -> String {
     };
     let names: Vec<String> =
         shared.sources.files().iter().filter(|f| !f.name.starts_with(library::DEVICES)).map(name).collect();
-    let text = harmless(&names.join(", "));
+    let names = names.join(", ");
+    let text = harmless(&names);
     // A comment in XML has no two hyphens side by side.
     text.replace("--", "- -").replace("--", "- -")
 }

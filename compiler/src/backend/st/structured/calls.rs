@@ -3,13 +3,14 @@
 use super::POINT;
 use super::access::{COORDINATES, Places};
 use super::units::Given;
-use crate::backend::st::body::Body;
+use crate::backend::st::block::Block;
 use crate::backend::st::code::{Ex, Stmt, name};
 use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::{Basic, Unit, Variable, constants};
 use crate::backend::st::globals::{Table, about};
 use crate::backend::st::name::Name;
-use crate::ir::{Extent, Parameter, Scalar, Value};
+use crate::backend::st::program::Blocks;
+use crate::ir::{Automaton, Extent, Parameter, Scalar, System, Value};
 use crate::naming::st::Scope;
 use std::collections::{BTreeMap, HashMap};
 
@@ -69,27 +70,17 @@ impl<'a> Calls<'a> {
     }
 
     /// Names the variables that hold points which robots are given, in the order of the calls.
-    pub fn name_points(&mut self, program: &Body, scope: &mut Scope) -> Vec<Table> {
-        let is_point = |p: &Parameter| p.ty.scalar == Scalar::Point && p.ty.extent == Extent::One;
+    pub fn name_points(&mut self, blocks: &[Option<Blocks>], scope: &mut Scope) -> Vec<Table> {
+        let system = self.shared.system;
+        let steps = points_given(system, blocks, |of| Some(&of.steps));
+        let properties = points_given(system, blocks, |of| of.properties.as_ref());
         let mut tables = Vec::new();
-        if !self.shared.system.model.automata.iter().any(|a| a.parameters.iter().any(is_point)) {
-            return tables;
-        }
-        for piece in program.pieces() {
-            for statement in piece.iter() {
-                let Stmt::Call { instance, arguments } = statement else { continue };
-                for (number, (argument, value)) in arguments.iter().enumerate() {
-                    let Some(of) = self.given(instance).and_then(|given| given.point_of(number, argument))
-                    else {
-                        continue;
-                    };
-                    if matches!(self.places.ex(value), Ex::Part(..) | Ex::Name(_)) {
-                        continue;
-                    }
-                    let (robot, number) = self.parameter(instance, of);
-                    if !self.named.contains_key(&(robot, number)) {
-                        let table = self.point(robot, number, scope);
-                        self.named.insert((robot, number), table.variable.name.clone());
+        for of_types in [steps, properties] {
+            for (robot, instance) in system.instances.iter().enumerate() {
+                for number in &of_types[instance.automaton.0] {
+                    if !self.named.contains_key(&(robot, *number)) {
+                        let table = self.point(robot, *number, scope);
+                        self.named.insert((robot, *number), table.variable.name.clone());
                         tables.push(table);
                     }
                 }
@@ -117,4 +108,21 @@ impl<'a> Calls<'a> {
         let comments = about(&parameter.doc, String::new());
         Table::declared(Variable { structure: Some(POINT.into()), comments, ..declared })
     }
+}
+
+/// The parameters that are points, of those with which a block of each type is called.
+fn points_given<'b, 'a: 'b>(
+    system: &System,
+    blocks: &'b [Option<Blocks<'a>>],
+    block: impl Fn(&'b Blocks<'a>) -> Option<&'b Block<'a>>,
+) -> Vec<Vec<usize>> {
+    let is_point = |p: &Parameter| p.ty.scalar == Scalar::Point && p.ty.extent == Extent::One;
+    let of_type = |(blocks, automaton): (&'b Option<Blocks<'a>>, &Automaton)| {
+        let arguments = blocks.as_ref().and_then(&block).map_or(&[][..], |block| &block.arguments);
+        let mut points: Vec<usize> = arguments.iter().filter_map(|(_, origin)| origin.parameter()).collect();
+        points.retain(|number| is_point(&automaton.parameters[*number]));
+        points.dedup();
+        points
+    };
+    blocks.iter().zip(&system.model.automata).map(of_type).collect()
 }
