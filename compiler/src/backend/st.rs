@@ -264,7 +264,7 @@ fn line<'a>(shared: Shared<'a>, image: &Image) -> Line<'a> {
     let blocks = Arc::new(blocks);
     let body = program::statements(shared, &blocks, image);
     let mut functions = BTreeSet::new();
-    let mut used = HashSet::new();
+    let mut used = HashSet::with_capacity(globals.all().count());
     body.names_and_functions(&mut used, &mut functions);
     let program = program::program(shared, &blocks, body, &used);
     let units =

@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn only_what_nobody_reads_is_left_out() {
-        let variables = ["a", "b", "c"].map(String::from).into();
+        let variables = ["a", "b", "c"].map(Name::from).into();
         let from = |target: &str, source: &str| assign(target, name(source));
         // `c` is read; `b` is read for `a` only, and `a` by nobody but itself.
         let statements = vec![one("c"), one("b"), from("a", "b"), from("a", "a"), from("out", "c"), one("d")];
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn a_test_goes_with_its_last_branch() {
-        let variables = ["a"].map(String::from).into();
+        let variables = ["a"].map(Name::from).into();
         let body = |inner| vec![when(name("x"), inner), one("out")];
         assert_eq!(without_unread(body(vec![one("a")]), &variables), [one("out")]);
         assert_eq!(without_unread(body(vec![one("a"), one("d")]), &variables), body(vec![one("d")]));

@@ -21,7 +21,7 @@ pub struct Filling {
 
 /// Some elements of a table.
 pub struct Others {
-    table: Name,
+    pub table: Name,
     values: Arc<Values>,
     elements: Range<usize>,
     /// A loop gives them this.

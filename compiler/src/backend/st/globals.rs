@@ -64,10 +64,9 @@ pub struct List<'a> {
 impl Globals {
     pub fn new(shared: Shared, image: &Image) -> Self {
         let located = |v: Variable| Variable { address: image.located.get(&v.name).cloned(), ..v };
-        let ports = ports(shared).into_iter();
         Self {
             system: system(shared).into_iter().map(located).collect(),
-            ports: Arc::new(ports.map(|of| of.into_iter().map(|v| Arc::new(located(v))).collect()).collect()),
+            ports: Arc::new(ports(shared, image)),
             raw: image.raw.clone(),
             cells: cells(shared),
             parameters: parameters(shared),
@@ -226,13 +225,17 @@ fn system(shared: Shared) -> Vec<Variable> {
 }
 
 /// For each robot its ports. Those of a type differ by their names.
-fn ports(shared: Shared) -> Vec<Vec<Variable>> {
+fn ports(shared: Shared, image: &Image) -> Vec<Vec<Arc<Variable>>> {
     let mut of_types: BTreeMap<AutomatonId, Vec<Variable>> = BTreeMap::new();
     let mut of_robot = |(robot, names): (usize, &RobotNames)| {
         let id = shared.system.instances[robot].automaton;
         let of_type = of_types.entry(id).or_insert_with(|| ports_of(shared, robot));
-        let named = names.ports.iter().flatten().zip(of_type);
-        named.map(|(name, variable)| Variable { name: name.clone(), ..variable.clone() }).collect()
+        let mut variables = Vec::with_capacity(of_type.len());
+        variables.extend(names.ports.iter().flatten().zip(of_type).map(|(name, variable)| {
+            let address = image.located.get(name).cloned();
+            Arc::new(Variable { name: name.clone(), address, ..variable.clone() })
+        }));
+        variables
     };
     shared.names.robots.iter().enumerate().map(&mut of_robot).collect()
 }

@@ -59,10 +59,10 @@ impl Lowering<'_> {
         };
         let note = device.verbs.iter().find(|v| v.number == verb).map_or("", |v| v.name.as_str()).to_string();
         let number =
-            [("last", "cmd"), ("got", "got"), ("ack", "ack")].map(|(input, p)| (input, name(&port(p))));
+            [("last", "cmd"), ("got", "got"), ("ack", "ack")].map(|(input, p)| (input, name(port(p))));
         let mut out = vec![
-            assign(&port("verb"), Ex::Member(Member { value: verb, note, qualified: self.verb(verb) })),
-            assign(&port("cmd"), Ex::Call("F_next_command", number.into())),
+            assign(port("verb"), Ex::Member(Member { value: verb, note, qualified: self.verb(verb) })),
+            assign(port("cmd"), Ex::Call("F_next_command", number.into())),
         ];
         let answer_counts = self.automaton().abandoned.into_iter().chain(self.automaton().interrupted);
         out.extend(answer_counts.map(|local| assign(&self.own().locals[local][0], Ex::Bool(false))));

@@ -135,10 +135,10 @@ mod tests {
     #[test]
     fn the_point_of_an_argument_does_not_depend_on_its_number() {
         let points = [("robot", None), ("at_x", Some("at")), ("rest_x", Some("rest"))];
-        let points = points.map(|(name, of)| (name.to_string(), of.map(String::from))).to_vec();
+        let points = points.map(|(name, of)| (Name::from(name), of.map(Name::from))).to_vec();
         let given = Given { unit: Unit::default(), shared: Vec::new(), places: Arc::default(), points };
         for number in 0..4 {
-            let point_of = |argument| given.point_of(number, argument).map(String::as_str);
+            let point_of = |argument| given.point_of(number, argument).map(Name::as_str);
             let found = ["robot", "at_x", "rest_x", "speed"].map(point_of);
             assert_eq!(found, [None, Some("at"), Some("rest"), None], "{number}");
         }
