@@ -130,6 +130,7 @@ pub struct Named {
 }
 
 impl Named {
+    /// With a raw variable for each address of the map that needs one.
     pub fn new(system: &System, map: &IoMap) -> Self {
         let names = names::names(system);
         let mut scope = names.program.inner();

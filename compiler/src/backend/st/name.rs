@@ -10,6 +10,7 @@ use std::sync::Arc;
 pub struct Name(Arc<str>);
 
 impl Name {
+    /// Its text.
     pub fn as_str(&self) -> &str {
         &self.0
     }

@@ -117,6 +117,7 @@ impl Dialect {
 /// Writes the expressions and statements of a unit.
 pub struct Writer<'a, N> {
     pub dialect: Dialect,
+    /// How their names are written.
     pub names: &'a N,
 }
 
