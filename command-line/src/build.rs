@@ -21,6 +21,7 @@ use autogen::version;
 use serde_json::{Map, Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 /// A line that was compiled.
 pub struct Built {
@@ -46,17 +47,18 @@ pub fn run(options: &BuildCommandOptions) -> Status {
     let done = build(options).and_then(|built| {
         let output = open(options, &built).map_err(|refusal| refused(options, &refusal))?;
         let of_a_run = output.of_a_run();
-        let names = built.with_program(|program| {
-            let first = |files: &mut dyn Sink| {
-                built.write_all_else(files);
-                built.write_portable(&program, files);
-            };
-            let make: [&Make; 2] = [&first, &|files| built.write_with_structures(&program, files)];
-            let names = write(options, &built, &make, &output);
-            // The process ends: to give back each value of a long line takes time.
-            std::mem::forget(program);
-            names
-        });
+        // All else does not wait for these.
+        let named = LazyLock::new(|| built.named());
+        let program = LazyLock::new(|| built.program(&named));
+        let first = |files: &mut dyn Sink| {
+            built.write_all_else(files);
+            built.write_portable(&program, files);
+        };
+        let make: [&Make; 2] = [&first, &|files| built.write_with_structures(&program, files)];
+        let names = write(options, &built, &make, &output);
+        // The process ends: to give back each value of a long line takes time.
+        std::mem::forget(program);
+        std::mem::forget(named);
         let names = names.map_err(|refusal| refused(options, &refusal))?;
         let folder = built.folder.clone();
         // The same.
@@ -159,14 +161,18 @@ impl Built {
     }
 
     fn write_structured_text(&self, files: &mut dyn Sink) {
-        self.with_program(|program| {
-            self.write_portable(&program, files);
-            self.write_with_structures(&program, files);
-        });
+        let named = self.named();
+        let program = self.program(&named);
+        self.write_portable(&program, files);
+        self.write_with_structures(&program, files);
     }
 
-    fn with_program<T>(&self, write: impl FnOnce(st::Program) -> T) -> T {
-        st::with_program(&self.project.system, &self.sources, &self.map, write)
+    fn named(&self) -> st::Named {
+        st::Named::new(&self.project.system, &self.map)
+    }
+
+    fn program<'a>(&'a self, named: &'a st::Named) -> st::Program<'a> {
+        named.program(&self.project.system, &self.sources, &self.map)
     }
 
     fn write_portable(&self, program: &st::Program, files: &mut dyn Sink) {

@@ -2,14 +2,16 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
+use std::borrow::Cow;
 
 /// A field as it is written: in quotes if it needs them, and with an apostrophe before it if a spreadsheet would
 /// compute it, or if it begins with apostrophes before such a text. Numbers stay as they are. [`parse`] takes the
 /// apostrophe away.
-pub fn field(text: &str) -> String {
-    let text = if is_formula(text.trim_start_matches('\'')) { format!("'{text}") } else { text.to_string() };
+pub fn field(text: &str) -> Cow<'_, str> {
+    let is_computed = is_formula(text.trim_start_matches('\''));
+    let text = if is_computed { Cow::Owned(format!("'{text}")) } else { Cow::Borrowed(text) };
     match text.contains([',', ';', '"', '\n', '\r']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        true => format!("\"{}\"", text.replace('"', "\"\"")).into(),
         false => text,
     }
 }

@@ -32,9 +32,13 @@ fn replaced(text: &str, keeps: fn(char) -> bool) -> Cow<'_, str> {
 
 /// As it may be in a comment, a title or a name: on one line. White space of any kind is a blank.
 pub fn line(text: &str) -> String {
-    // Most are so.
+    on_a_line(text).into_owned()
+}
+
+/// The same as [`line`], which most texts are already.
+pub fn on_a_line(text: &str) -> Cow<'_, str> {
     if text.bytes().all(|byte| (b' '..=b'~').contains(&byte)) {
-        return text.to_string();
+        return Cow::Borrowed(text);
     }
     text.chars()
         .map(|c| match c {

@@ -171,7 +171,7 @@ impl<'a> Table<'a> {
                 let cells: Vec<String> = (self.names.iter().map(|name| (name.cell)(row)))
                     .chain(csv_cells(row))
                     .chain(values.map(number))
-                    .map(|cell| csv::field(&cell))
+                    .map(|cell| csv::field(&cell).into_owned())
                     .collect();
                 say!("{}", cells.join(","));
             }

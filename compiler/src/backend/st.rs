@@ -30,6 +30,7 @@ mod guard;
 mod image;
 mod masks;
 mod modes;
+mod name;
 mod names;
 mod points;
 mod print;
@@ -63,11 +64,12 @@ use declaration::Unit;
 use externals::Externals;
 use globals::{Globals, Index};
 use image::{Image, Wired};
+use names::Names;
 use program::Blocks;
 use runtime_sim::io_trace::Columns;
 use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
-use structured::{Enumerated, Places, Structure, structured};
+use structured::{Common, Enumerated, Structure, structured};
 
 /// Every point of I/O, in the order of `io.csv`; an [`IoMap`] counts them so.
 pub fn points(system: &System) -> Vec<Point> {
@@ -82,23 +84,23 @@ pub fn files(system: &System, sources: &Sources) -> Files {
 /// The files of the folder `plc/`, with the addresses of a map for [`points`] of the same system. And the columns
 /// of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
 pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Columns) {
-    with_program(system, sources, map, |program| {
-        let mut files = Files::new();
-        program.portable(Flavours::WithoutPlcopen, &Translations::default(), &mut files);
-        program.with_structures(Flavours::WithoutPlcopen, &mut files);
-        (files, program.columns())
-    })
+    let named = Named::new(system, map);
+    let program = named.program(system, sources, map);
+    let mut files = Files::new();
+    program.portable(Flavours::WithoutPlcopen, &Translations::default(), &mut files);
+    program.with_structures(Flavours::WithoutPlcopen, &mut files);
+    (files, program.columns())
 }
 
 /// The text of [`mapped`] as PLCopen XML, in the two flavours that tools import; files of the folder `plc/`.
 pub fn plcopen(system: &System, sources: &Sources, map: &IoMap) -> Files {
-    with_program(system, sources, map, |program| {
-        let mut files = Files::new();
-        program.plcopen(&mut files);
-        let places = Places::shared(program.shared);
-        program.codesys_xml(&program.structured(&places, Enumerated::ByType), &mut files);
-        files
-    })
+    let named = Named::new(system, map);
+    let program = named.program(system, sources, map);
+    let mut files = Files::new();
+    program.plcopen(&mut files);
+    let common = Common::new(program.shared, &program.line);
+    program.codesys_xml(&program.structured(&common, Enumerated::ByType), &mut files);
+    files
 }
 
 /// In what the program is written.
@@ -114,24 +116,35 @@ pub struct Program<'a> {
     shared: Shared<'a>,
     map: &'a IoMap,
     line: Line<'a>,
-    wired: Vec<Wired>,
+    wired: &'a [Wired],
     /// The names of MAIN.
     names: &'a Scope,
 }
 
-/// Gives the program of a line. [`Program::portable`] and [`Program::with_structures`] give all files of the folder
-/// `plc/`, each half of them, and may do it at the same time.
-pub fn with_program<T>(
-    system: &System,
-    sources: &Sources,
-    map: &IoMap,
-    write: impl FnOnce(Program) -> T,
-) -> T {
-    let names = names::names(system);
-    let mut program = names.program.inner();
-    let image = image::image(system, &names, map, &mut program);
-    let shared = Shared { system, sources, names: &names };
-    write(Program { shared, map, line: line(shared, &image), wired: image.wired, names: &program })
+/// The names of a line and its process image, of which its program is made.
+pub struct Named {
+    names: Names,
+    /// The names of MAIN.
+    scope: Scope,
+    image: Image,
+}
+
+impl Named {
+    /// With a raw variable for each address of the map that needs one.
+    pub fn new(system: &System, map: &IoMap) -> Self {
+        let names = names::names(system);
+        let mut scope = names.program.inner();
+        let image = image::image(system, &names, map, &mut scope);
+        Self { names, scope, image }
+    }
+
+    /// The program of the same line. [`Program::portable`] and [`Program::with_structures`] give all files of the
+    /// folder `plc/`, each half of them, and may do it at the same time.
+    pub fn program<'a>(&'a self, system: &'a System, sources: &'a Sources, map: &'a IoMap) -> Program<'a> {
+        let shared = Shared { system, sources, names: &self.names };
+        let line = line(shared, &self.image);
+        Program { shared, map, line, wired: &self.image.wired, names: &self.scope }
+    }
 }
 
 impl Program<'_> {
@@ -146,9 +159,9 @@ impl Program<'_> {
 
     /// The texts for tools that have structures.
     pub fn with_structures(&self, flavours: Flavours, files: &mut dyn Sink) {
-        let places = Places::shared(self.shared);
-        self.codesys(&places, flavours, files);
-        self.siemens(&places, files);
+        let common = Common::new(self.shared, &self.line);
+        self.codesys(&common, flavours, files);
+        self.siemens(&common, files);
     }
 
     /// The columns of [`mapped`].
@@ -156,8 +169,8 @@ impl Program<'_> {
         columns::columns(self.shared, &self.line.globals)
     }
 
-    fn structured(&self, places: &Places, enumerated: Enumerated) -> Line<'_> {
-        structured(self.shared, &self.line, places, enumerated, &mut self.names.clone())
+    fn structured(&self, common: &Common, enumerated: Enumerated) -> Line<'_> {
+        structured(self.shared, &self.line, common, enumerated, &mut self.names.clone())
     }
 
     fn texts_without_types(&self, files: &mut dyn Sink) {
@@ -178,8 +191,8 @@ impl Program<'_> {
         files.file("portable/project.xml", &xml::plcopen(self.shared, &self.line));
     }
 
-    fn codesys(&self, places: &Places, flavours: Flavours, files: &mut dyn Sink) {
-        let line = self.structured(places, Enumerated::ByType);
+    fn codesys(&self, common: &Common, flavours: Flavours, files: &mut dyn Sink) {
+        let line = self.structured(common, Enumerated::ByType);
         text::codesys(self.shared, &line, &mut Folder { name: "codesys", sink: files });
         if flavours == Flavours::All {
             self.codesys_xml(&line, files);
@@ -190,9 +203,9 @@ impl Program<'_> {
         files.file("codesys/project.xml", &xml::codesys(self.shared, by_type));
     }
 
-    fn siemens(&self, places: &Places, files: &mut dyn Sink) {
-        let by_number = self.structured(places, Enumerated::ByNumber);
-        let copies = siemens::copies(&self.wired, self.map.counting());
+    fn siemens(&self, common: &Common, files: &mut dyn Sink) {
+        let by_number = self.structured(common, Enumerated::ByNumber);
+        let copies = siemens::copies(self.wired, self.map.counting());
         siemens::files(self.shared, &by_number, &copies, &mut Folder { name: "siemens", sink: files });
     }
 }
@@ -252,7 +265,7 @@ fn line<'a>(shared: Shared<'a>, image: &Image) -> Line<'a> {
     let blocks = Arc::new(blocks);
     let body = program::statements(shared, &blocks, image);
     let mut functions = BTreeSet::new();
-    let mut used = HashSet::new();
+    let mut used = HashSet::with_capacity(globals.all().count());
     body.names_and_functions(&mut used, &mut functions);
     let program = program::program(shared, &blocks, body, &used);
     let units =

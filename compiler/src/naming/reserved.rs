@@ -77,7 +77,9 @@ pub fn is_reserved(name: &str) -> bool {
 /// Where matiec would take a part of a name for a keyword: the place of the underscore within that keyword.
 pub fn keyword_inside(name: &str) -> Option<usize> {
     let name = name.to_ascii_lowercase();
-    let inside = FOUND_INSIDE.iter().filter_map(|keyword| Some((name.find(keyword)?, *keyword)));
+    let begins = name.match_indices("end_").map(|(at, _)| at);
+    let inside = begins
+        .filter_map(|at| Some((at, *FOUND_INSIDE.iter().find(|keyword| name[at..].starts_with(**keyword))?)));
     let in_front = name.starts_with(FOUND_IN_FRONT).then_some((0, FOUND_IN_FRONT));
     let (at, keyword) = inside.chain(in_front).min()?;
     Some(at + keyword.find('_')?)

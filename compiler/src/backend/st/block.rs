@@ -8,6 +8,7 @@ use super::expression::limited;
 use super::externals::Externals;
 use super::globals::{Index, about, array_names, elements, meaning};
 use super::modes;
+use super::name::Name;
 use super::names::ELEMENT;
 use super::property;
 use super::restart;
@@ -35,9 +36,19 @@ pub enum Origin {
     /// Kept in the block of the steps, under the same name.
     Kept,
     /// Kept in the block of the steps, under this name.
-    KeptAs(String),
+    KeptAs(Name),
     /// Its first entry in the table of alarms.
     AlarmEntry,
+}
+
+impl Origin {
+    /// The parameter of which it is a part.
+    pub fn parameter(&self) -> Option<usize> {
+        match self {
+            Origin::Parameter { parameter, .. } => Some(*parameter),
+            _ => None,
+        }
+    }
 }
 
 /// A variable that a block of a type may need.
@@ -65,7 +76,7 @@ impl Candidate {
 /// A function block with what it is called with.
 pub struct Block<'a> {
     pub unit: Unit<'a>,
-    pub arguments: Vec<(String, Origin)>,
+    pub arguments: Vec<(Name, Origin)>,
 }
 
 pub fn steps<'a>(shared: Shared, id: AutomatonId, index: &Index) -> Block<'a> {
@@ -191,7 +202,7 @@ pub fn kept_values(kept: &[&Candidate]) -> Vec<Stmt> {
     body
 }
 
-pub fn externals(globals: &Index, used: &HashSet<String>) -> Externals {
+pub fn externals(globals: &Index, used: &HashSet<Name>) -> Externals {
     Externals::Declared(globals.among(used).map(Variable::external).collect())
 }
 
@@ -292,7 +303,7 @@ fn is_retained(automaton: &Automaton, port: usize) -> bool {
 }
 
 /// Names of variables that no specification declares.
-pub fn made(lowering: &Lowering) -> BTreeSet<String> {
+pub fn made(lowering: &Lowering) -> BTreeSet<Name> {
     let own = lowering.own();
     let temporaries = lowering.temporaries.iter().map(|variable| variable.name.clone());
     temporaries.chain(own.variables.iter().cloned()).chain(own.defines.iter().flatten().cloned()).collect()
@@ -303,7 +314,7 @@ pub fn locals(
     shared: Shared,
     id: AutomatonId,
     temporaries: &[Variable],
-    used: &HashSet<String>,
+    used: &HashSet<Name>,
 ) -> Vec<Variable> {
     let automaton = shared.system.model.automaton(id);
     let own = &shared.names.automata[id.0];
@@ -329,15 +340,15 @@ pub fn locals(
     all
 }
 
-fn inputs(candidates: Vec<Candidate>, used: &HashSet<String>) -> (Vec<Variable>, Vec<(String, Origin)>) {
+fn inputs(candidates: Vec<Candidate>, used: &HashSet<Name>) -> (Vec<Variable>, Vec<(Name, Origin)>) {
     let candidates = candidates.into_iter().filter(|c| !matches!(c.origin, Origin::Kept)).collect();
     inputs_and_kept(candidates, used)
 }
 
 pub fn inputs_and_kept(
     candidates: Vec<Candidate>,
-    used: &HashSet<String>,
-) -> (Vec<Variable>, Vec<(String, Origin)>) {
+    used: &HashSet<Name>,
+) -> (Vec<Variable>, Vec<(Name, Origin)>) {
     candidates
         .into_iter()
         .filter(|c| used.contains(&c.variable.name))
@@ -347,16 +358,16 @@ pub fn inputs_and_kept(
 
 impl Block<'_> {
     /// The call of this block for a robot; what the robot keeps is read from the instance of its steps.
-    pub fn call(&self, shared: Shared, instance: &str, robot: usize) -> Stmt {
+    pub fn call(&self, shared: Shared, instance: &Name, robot: usize) -> Stmt {
         let arguments = self.arguments.iter();
         let arguments =
             arguments.map(|(input, origin)| (input.clone(), argument(shared, robot, input, origin)));
-        Stmt::Call { instance: instance.into(), arguments: arguments.collect() }
+        Stmt::Call { instance: instance.clone(), arguments: arguments.collect() }
     }
 }
 
 /// What a block of a robot is called with.
-pub fn argument(shared: Shared, robot: usize, input: &str, origin: &Origin) -> Ex {
+pub fn argument(shared: Shared, robot: usize, input: &Name, origin: &Origin) -> Ex {
     let instance = &shared.system.instances[robot];
     let automaton = shared.system.automaton_of(robot);
     let names = &shared.names.robots[robot];
@@ -382,7 +393,7 @@ pub fn argument(shared: Shared, robot: usize, input: &str, origin: &Origin) -> E
             }
         }
         Origin::AlarmEntry => Ex::Int(shared.names.alarms_before[robot] as i32),
-        Origin::Kept => Ex::Field(names.instance.clone(), input.into()),
+        Origin::Kept => Ex::Field(names.instance.clone(), input.clone()),
         Origin::KeptAs(ref name) => Ex::Field(names.instance.clone(), name.clone()),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::bounds;
 use super::code::{self, Stmt};
+use super::name::Name;
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
@@ -60,7 +61,7 @@ impl<'a> Body<'a> {
     }
 
     /// Adds all names that are read or written, and all functions that are called.
-    pub fn names_and_functions(&self, names: &mut HashSet<String>, functions: &mut BTreeSet<&'static str>) {
+    pub fn names_and_functions(&self, names: &mut HashSet<Name>, functions: &mut BTreeSet<&'static str>) {
         let mut called = Vec::new();
         for piece in self.pieces() {
             code::expressions(&piece, &mut |ex| {

@@ -1,8 +1,8 @@
 //! Statements and expressions of Structured Text, as values: they are printed, counted and searched.
 
+use super::name::Name;
 use super::values::List;
 use std::collections::HashSet;
-use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ex {
@@ -11,20 +11,20 @@ pub enum Ex {
     Real(f64),
     /// A member of an enumeration or a state, by its number.
     Member(Member),
-    Name(String),
-    Element(String, Box<Ex>),
+    Name(Name),
+    Element(Name, Box<Ex>),
     /// The index of an element of a table that has so many for each row: row, number of them, which of them.
     Within(Box<Ex>, i32, Box<Ex>),
     /// A field of a structure.
-    Part(Box<Ex>, String),
+    Part(Box<Ex>, Name),
     /// An element of what is no variable by itself, or of an array of two dimensions.
     Item(Box<Ex>, Vec<Ex>),
     /// The values of an array.
     List(List),
     /// The values of a structure. Many have the same fields.
-    Fields(Vec<(Arc<str>, Ex)>),
+    Fields(Vec<(Name, Ex)>),
     /// An output of a function block.
-    Field(String, String),
+    Field(Name, Name),
     Not(Box<Ex>),
     Minus(Box<Ex>),
     Binary(&'static str, Box<Ex>, Box<Ex>),
@@ -61,8 +61,8 @@ pub enum Stmt {
     Exit,
     Return,
     Call {
-        instance: String,
-        arguments: Vec<(String, Ex)>,
+        instance: Name,
+        arguments: Vec<(Name, Ex)>,
     },
 }
 
@@ -74,7 +74,7 @@ pub struct Arm {
     pub body: Vec<Stmt>,
 }
 
-pub fn name(name: &str) -> Ex {
+pub fn name(name: impl Into<Name>) -> Ex {
     Ex::Name(name.into())
 }
 
@@ -82,7 +82,7 @@ pub fn binary(operator: &'static str, a: Ex, b: Ex) -> Ex {
     Ex::Binary(operator, Box::new(a), Box::new(b))
 }
 
-pub fn assign(target: &str, value: Ex) -> Stmt {
+pub fn assign(target: impl Into<Name>, value: Ex) -> Stmt {
     Stmt::Assign(name(target), value)
 }
 
@@ -156,7 +156,7 @@ pub fn times(a: Ex, factor: i32) -> Ex {
 
 impl Ex {
     /// Names that are read: variables, instances of blocks.
-    pub fn names(&self, found: &mut HashSet<String>) {
+    pub fn names(&self, found: &mut HashSet<Name>) {
         match self {
             // A list has constants.
             Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Member(_) | Ex::List(_) => {}
@@ -209,9 +209,9 @@ impl Ex {
     }
 }
 
-fn add(name: &str, found: &mut HashSet<String>) {
+fn add(name: &Name, found: &mut HashSet<Name>) {
     if !found.contains(name) {
-        found.insert(name.into());
+        found.insert(name.clone());
     }
 }
 
@@ -261,14 +261,14 @@ pub fn expressions<'a>(statements: &'a [Stmt], visit: &mut impl FnMut(&'a Ex)) {
 }
 
 /// All names that statements read or write.
-pub fn names(statements: &[Stmt]) -> HashSet<String> {
+pub fn names(statements: &[Stmt]) -> HashSet<Name> {
     let mut found = HashSet::new();
     expressions(statements, &mut |e| e.names(&mut found));
     found
 }
 
 /// Variables and arrays to which statements assign.
-pub fn written(statements: &[Stmt]) -> HashSet<String> {
+pub fn written(statements: &[Stmt]) -> HashSet<Name> {
     let mut found = HashSet::new();
     for statement in statements {
         match statement {

@@ -4,6 +4,7 @@
 use super::context::Shared;
 use super::declaration::suffixes;
 use super::globals::Globals;
+use super::name::Name;
 use crate::ir::{Scalar, Type};
 use runtime_sim::device::{self, Direction, PortType};
 use runtime_sim::io_trace::{Column, Columns, Form, Source};
@@ -59,7 +60,7 @@ fn ports(shared: Shared, robot: usize, direction: Direction) -> Vec<Column> {
         for element in 0..port.extent.elements(shared.system.kinds()) {
             for name in held {
                 let name = match port.extent {
-                    device::Extent::One => name.clone(),
+                    device::Extent::One => name.to_string(),
                     device::Extent::PerKind | device::Extent::Times(_) => format!("{name}[{element}]"),
                 };
                 let (machine, word) = (robot, columns.len());
@@ -76,11 +77,11 @@ fn ports(shared: Shared, robot: usize, direction: Direction) -> Vec<Column> {
 
 /// Columns of the trace, in whose order they are found: state and elapsed time of each robot, and the elements
 /// of the cells by the name of the global.
-fn remembered(shared: Shared) -> (Vec<Column>, BTreeMap<String, Vec<Column>>) {
+fn remembered(shared: Shared) -> (Vec<Column>, BTreeMap<Name, Vec<Column>>) {
     let model = &shared.system.model;
     let words = |ty: Type| model.elements(ty.extent) * suffixes(ty.scalar).len();
     let mut states = Vec::new();
-    let mut cells: BTreeMap<String, Vec<(usize, Column)>> = BTreeMap::new();
+    let mut cells: BTreeMap<Name, Vec<(usize, Column)>> = BTreeMap::new();
     let mut at = 0;
     for (robot, (instance, names)) in shared.system.instances.iter().zip(&shared.names.robots).enumerate() {
         let automaton = shared.system.automaton_of(robot);

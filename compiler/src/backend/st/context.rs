@@ -2,6 +2,7 @@
 
 use super::code::{Ex, Member, Stmt, written};
 use super::declaration::{Basic, Variable};
+use super::name::Name;
 use super::names::{AutomatonNames, Names};
 use super::role::{self, Members};
 use crate::ir::{Automaton, AutomatonId, EnumId, RoleId, System, Value};
@@ -36,7 +37,7 @@ pub struct Lowering<'a> {
     /// Computations of defines, which come before the statement or guard that reads them.
     pub hoisted: Vec<Stmt>,
     /// Defines whose variables hold their present value, with all names that were read for it.
-    pub known: BTreeMap<usize, HashSet<String>>,
+    pub known: BTreeMap<usize, HashSet<Name>>,
     scope: Scope,
     /// By what they are for and their number among those in use at once.
     given: BTreeMap<(String, Basic, usize), String>,

@@ -3,21 +3,22 @@
 //! A guard may name a value without looking at it, and a quantifier may be decided before its loop.
 
 use super::code::{Ex, Stmt, expressions};
+use super::name::Name;
 use std::collections::{BTreeSet, HashSet};
 
 /// Without assignments to those of the variables that nothing reads, their own assignments apart.
-pub fn without_unread(mut statements: Vec<Stmt>, variables: &BTreeSet<String>) -> Vec<Stmt> {
+pub fn without_unread(mut statements: Vec<Stmt>, variables: &BTreeSet<Name>) -> Vec<Stmt> {
     loop {
         let mut read = HashSet::new();
         reads(&statements, &mut read);
-        let unread: BTreeSet<&String> = variables.iter().filter(|name| !read.contains(*name)).collect();
+        let unread: BTreeSet<&Name> = variables.iter().filter(|name| !read.contains(*name)).collect();
         let Some(fewer) = without(&statements, &unread) else { return statements };
         statements = fewer;
     }
 }
 
 /// Variables that are read, but for the one that the reading assignment sets.
-fn reads(statements: &[Stmt], found: &mut HashSet<String>) {
+fn reads(statements: &[Stmt], found: &mut HashSet<Name>) {
     for statement in statements {
         match statement {
             Stmt::Assign(target, value) => {
@@ -55,7 +56,7 @@ fn reads(statements: &[Stmt], found: &mut HashSet<String>) {
 
 /// The statements without some assignments; nothing if there are none of them. Branches must not become empty:
 /// a test is left out with its last branch, and else the assignment stays.
-fn without(statements: &[Stmt], unread: &BTreeSet<&String>) -> Option<Vec<Stmt>> {
+fn without(statements: &[Stmt], unread: &BTreeSet<&Name>) -> Option<Vec<Stmt>> {
     let mut out = Vec::new();
     let mut is_shorter = false;
     for statement in statements {
@@ -101,7 +102,7 @@ fn without(statements: &[Stmt], unread: &BTreeSet<&String>) -> Option<Vec<Stmt>>
 }
 
 /// Whether a branch became shorter, which it does unless it became empty.
-fn replace(body: &mut Vec<Stmt>, unread: &BTreeSet<&String>) -> bool {
+fn replace(body: &mut Vec<Stmt>, unread: &BTreeSet<&Name>) -> bool {
     match without(body, unread) {
         Some(fewer) if is_of_substance(&fewer) => {
             *body = fewer;
@@ -126,7 +127,7 @@ mod tests {
 
     #[test]
     fn only_what_nobody_reads_is_left_out() {
-        let variables = ["a", "b", "c"].map(String::from).into();
+        let variables = ["a", "b", "c"].map(Name::from).into();
         let from = |target: &str, source: &str| assign(target, name(source));
         // `c` is read; `b` is read for `a` only, and `a` by nobody but itself.
         let statements = vec![one("c"), one("b"), from("a", "b"), from("a", "a"), from("out", "c"), one("d")];
@@ -135,7 +136,7 @@ mod tests {
 
     #[test]
     fn a_test_goes_with_its_last_branch() {
-        let variables = ["a"].map(String::from).into();
+        let variables = ["a"].map(Name::from).into();
         let body = |inner| vec![when(name("x"), inner), one("out")];
         assert_eq!(without_unread(body(vec![one("a")]), &variables), [one("out")]);
         assert_eq!(without_unread(body(vec![one("a"), one("d")]), &variables), body(vec![one("d")]));

@@ -4,7 +4,8 @@ use super::attributes::{Attribute, OF_WHAT_IS_SHOWN};
 use super::body::Body;
 use super::code::Ex;
 use super::externals::Externals;
-use super::print::{Dialect, comment};
+use super::name::Name;
+use super::print::{Dialect, comment, harmless};
 use crate::io_map::Raw;
 use crate::ir::{Scalar, Value};
 use std::fmt::{self, Formatter, Write};
@@ -24,7 +25,7 @@ pub enum Basic {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    pub name: String,
+    pub name: Name,
     pub basic: Basic,
     /// In the process image, such as `%IX0.3`.
     pub address: Option<String>,
@@ -47,8 +48,8 @@ pub struct Variable {
 /// An instance of a function block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instance {
-    pub name: String,
-    pub block: String,
+    pub name: Name,
+    pub block: Name,
     pub comment: String,
     /// Its block has variables that outlast a loss of power.
     pub is_retained: bool,
@@ -113,10 +114,9 @@ impl From<Raw> for Basic {
 }
 
 impl Variable {
-    pub fn new(name: impl Into<String>, basic: Basic) -> Self {
-        let name = name.into();
+    pub fn new(name: impl Into<Name>, basic: Basic) -> Self {
         Self {
-            name,
+            name: name.into(),
             basic,
             address: None,
             elements: None,
@@ -173,13 +173,17 @@ impl Variable {
         self.structure.as_deref().or(self.enumeration.as_deref()).unwrap_or(self.basic.name())
     }
 
-    pub fn ty(&self, dialect: Dialect) -> String {
-        let single = match (dialect, &self.structure) {
-            (Dialect::Siemens, Some(name)) => format!("\"{name}\""),
-            _ => self.single().to_string(),
-        };
-        let dimensions: Vec<String> = self.last(dialect).iter().map(|last| format!("0..{last}")).collect();
-        if dimensions.is_empty() { single } else { format!("ARRAY[{}] OF {single}", dimensions.join(", ")) }
+    fn write_type(&self, dialect: Dialect, to: &mut impl Write) -> fmt::Result {
+        for (i, last) in self.last(dialect).iter().enumerate() {
+            write!(to, "{}0..{last}", if i == 0 { "ARRAY[" } else { ", " })?;
+        }
+        if self.elements.is_some() {
+            to.write_str("] OF ")?;
+        }
+        match (dialect, &self.structure) {
+            (Dialect::Siemens, Some(name)) => write!(to, "\"{name}\""),
+            _ => to.write_str(self.single()),
+        }
     }
 
     /// The same variable without initial value, as it is declared where it is used.
@@ -210,18 +214,22 @@ impl Variable {
 
     /// The declaration, with its comments.
     pub fn line(&self, dialect: Dialect, to: &mut impl Write) -> fmt::Result {
-        write!(to, "    {}", self.name)?;
+        to.write_str("    ")?;
+        to.write_str(&self.name)?;
         if let Some(at) = &self.address {
             write!(to, " AT {at}")?;
         }
-        write!(to, " : {}", self.ty(dialect))?;
+        to.write_str(" : ")?;
+        self.write_type(dialect, to)?;
         if let Some(initial) = &self.initial {
             to.write_str(" := ")?;
             dialect.initial(initial, to)?;
         }
         to.write_char(';')?;
         for (i, line) in self.comments.iter().enumerate() {
-            write!(to, "{}{}", if i == 0 { " " } else { "\n        " }, comment(line))?;
+            to.write_str(if i == 0 { " (* " } else { "\n        (* " })?;
+            to.write_str(&harmless(line))?;
+            to.write_str(" *)")?;
         }
         to.write_char('\n')
     }

@@ -3,6 +3,7 @@
 use super::code::{Ex, Stmt, advance, and, assign, binary, name, not, or, real, when, within};
 use super::context::{Lowering, Phase};
 use super::declaration::Basic;
+use super::name::Name;
 use super::property::own_stop;
 use super::role::Members;
 use super::walk;
@@ -15,7 +16,7 @@ use runtime_sim::device::PortType;
 /// A variable, or an element of an array: where a value is held.
 pub struct Spot {
     /// One, or three for a point.
-    pub names: Vec<String>,
+    pub names: Vec<Name>,
     pub index: Option<Ex>,
     /// Bounds to which a latched element is limited when it is read.
     pub limit: Option<(i32, i32)>,
@@ -181,7 +182,7 @@ impl Lowering<'_> {
     }
 
     /// The variables from which `done` and `failed` are computed.
-    pub fn answer_names(&self) -> Vec<String> {
+    pub fn answer_names(&self) -> Vec<Name> {
         let ports = self.automaton().device.ports.iter().zip(&self.own().ports);
         let ports = ports.filter(|(port, _)| ["cmd", "ack", "error"].contains(&port.name.as_str()));
         let locals = self.automaton().abandoned.into_iter().chain(self.automaton().interrupted);

@@ -2,6 +2,7 @@
 
 use super::code::{Ex, Stmt, advance, assign, binary, name};
 use super::globals::Table;
+use super::name::Name;
 use super::values::Values;
 use std::ops::Range;
 use std::sync::Arc;
@@ -20,7 +21,7 @@ pub struct Filling {
 
 /// Some elements of a table.
 pub struct Others {
-    table: String,
+    pub table: Name,
     values: Arc<Values>,
     elements: Range<usize>,
     /// A loop gives them this.

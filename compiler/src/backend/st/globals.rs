@@ -11,6 +11,7 @@ use super::context::Shared;
 use super::declaration::{Basic, Variable, constants};
 use super::image::Image;
 use super::modes;
+use super::name::Name;
 use super::names::RobotNames;
 use super::restart;
 use super::role::Members;
@@ -33,7 +34,7 @@ pub struct Table {
 pub struct Globals {
     pub system: Vec<Variable>,
     /// For each robot its ports.
-    pub ports: Vec<Vec<Arc<Variable>>>,
+    pub ports: Arc<Vec<Vec<Arc<Variable>>>>,
     /// Raw values at their addresses.
     pub raw: Vec<Variable>,
     pub cells: Vec<Table>,
@@ -63,10 +64,9 @@ pub struct List<'a> {
 impl Globals {
     pub fn new(shared: Shared, image: &Image) -> Self {
         let located = |v: Variable| Variable { address: image.located.get(&v.name).cloned(), ..v };
-        let ports = ports(shared).into_iter();
         Self {
             system: system(shared).into_iter().map(located).collect(),
-            ports: ports.map(|of| of.into_iter().map(|v| Arc::new(located(v))).collect()).collect(),
+            ports: Arc::new(ports(shared, image)),
             raw: image.raw.clone(),
             cells: cells(shared),
             parameters: parameters(shared),
@@ -120,8 +120,16 @@ impl Globals {
     }
 
     pub fn all(&self) -> impl Iterator<Item = &Variable> {
+        self.system.iter().chain(self.ports()).chain(self.behind_ports())
+    }
+
+    fn all_but_ports(&self) -> impl Iterator<Item = &Variable> {
+        self.system.iter().chain(self.behind_ports())
+    }
+
+    fn behind_ports(&self) -> impl Iterator<Item = &Variable> {
         let tables = self.cells.iter().chain(&self.parameters).chain(&self.alarms).map(|t| &t.variable);
-        self.system.iter().chain(self.ports()).chain(&self.raw).chain(tables)
+        self.raw.iter().chain(tables)
     }
 
     fn ports(&self) -> impl Iterator<Item = &Variable> {
@@ -129,7 +137,7 @@ impl Globals {
     }
 }
 
-/// The globals in their order, to be found by their names.
+/// The globals that blocks may name, in their order, to be found by their names. Ports are given to them.
 pub struct Index<'a> {
     pub globals: &'a Globals,
     all: Vec<&'a Variable>,
@@ -138,13 +146,13 @@ pub struct Index<'a> {
 
 impl<'a> Index<'a> {
     pub fn new(globals: &'a Globals) -> Self {
-        let all: Vec<&Variable> = globals.all().collect();
+        let all: Vec<&Variable> = globals.all_but_ports().collect();
         let numbers = all.iter().enumerate().map(|(number, variable)| (variable.name.as_str(), number));
         Self { globals, numbers: numbers.collect(), all }
     }
 
     /// Those that are among these.
-    pub fn among(&self, names: &HashSet<String>) -> impl Iterator<Item = &'a Variable> {
+    pub fn among(&self, names: &HashSet<Name>) -> impl Iterator<Item = &'a Variable> {
         let mut numbers: Vec<usize> =
             names.iter().filter_map(|name| self.numbers.get(name.as_str()).copied()).collect();
         numbers.sort_unstable();
@@ -217,13 +225,17 @@ fn system(shared: Shared) -> Vec<Variable> {
 }
 
 /// For each robot its ports. Those of a type differ by their names.
-fn ports(shared: Shared) -> Vec<Vec<Variable>> {
+fn ports(shared: Shared, image: &Image) -> Vec<Vec<Arc<Variable>>> {
     let mut of_types: BTreeMap<AutomatonId, Vec<Variable>> = BTreeMap::new();
     let mut of_robot = |(robot, names): (usize, &RobotNames)| {
         let id = shared.system.instances[robot].automaton;
         let of_type = of_types.entry(id).or_insert_with(|| ports_of(shared, robot));
-        let named = names.ports.iter().flatten().zip(of_type);
-        named.map(|(name, variable)| Variable { name: name.clone(), ..variable.clone() }).collect()
+        let mut variables = Vec::with_capacity(of_type.len());
+        variables.extend(names.ports.iter().flatten().zip(of_type).map(|(name, variable)| {
+            let address = image.located.get(name).cloned();
+            Arc::new(Variable { name: name.clone(), address, ..variable.clone() })
+        }));
+        variables
     };
     shared.names.robots.iter().enumerate().map(&mut of_robot).collect()
 }
@@ -384,7 +396,7 @@ fn shown(shared: Shared) -> Vec<Table> {
 /// One array for each variable of a value.
 fn table(
     scalar: Scalar,
-    held: &[String],
+    held: &[Name],
     values: impl Iterator<Item = Vec<Ex>> + Clone,
     comments: &[Arc<str>],
 ) -> Vec<Table> {
@@ -458,7 +470,7 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
 }
 
 /// The globals that hold an array of parameters of a robot.
-pub fn array_names<'a>(shared: Shared<'a>, robot: usize, parameter: usize) -> &'a [String] {
+pub fn array_names<'a>(shared: Shared<'a>, robot: usize, parameter: usize) -> &'a [Name] {
     let id = shared.system.instances[robot].automaton;
     let table = &shared.names.automata[id.0].tables[parameter];
     if table.is_empty() { &shared.names.robots[robot].parameters[parameter] } else { table }

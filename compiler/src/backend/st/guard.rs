@@ -4,6 +4,7 @@ use super::code::{Ex, Stmt, and, assign, binary, name, not, or, when};
 use super::context::{Lowering, Phase};
 use super::declaration::Basic;
 use super::expression::conjuncts;
+use super::name::Name;
 use crate::ir::{Binder, Clause, Expr, Transition, Update, VariableId};
 use std::collections::BTreeSet;
 
@@ -85,8 +86,8 @@ impl Lowering<'_> {
             .chain(rest.iter().filter_map(bound))
             .filter(|v| used.contains(v))
             .collect();
-        let names: Vec<String> = chosen.iter().map(|v| self.own().variables[v.0].clone()).collect();
-        let best: Vec<(String, String)> =
+        let names: Vec<Name> = chosen.iter().map(|v| self.own().variables[v.0].clone()).collect();
+        let best: Vec<(String, Name)> =
             names.into_iter().map(|v| (self.temporary(&format!("{v}_best"), Basic::Dint), v)).collect();
         let mut remember = vec![assign(flag, Ex::Bool(true)), assign(&least, name(&own_key))];
         remember.extend(best.iter().map(|(best, v)| assign(best, name(v))));

@@ -5,6 +5,7 @@
 
 use super::code::{Ex, Stmt, assign, binary, name, not, real};
 use super::declaration::{Basic, Variable};
+use super::name::Name;
 use super::names::{Names, ROUNDED};
 use super::points::{Terminal, terminals};
 use crate::io_map::{Conversion, IoMap, Kind, Raw, Wire};
@@ -16,7 +17,7 @@ use std::collections::BTreeMap;
 #[derive(Default)]
 pub struct Image {
     /// Addresses of variables that stand there themselves, by name.
-    pub located: BTreeMap<String, String>,
+    pub located: BTreeMap<Name, String>,
     pub raw: Vec<Variable>,
     pub inputs: Vec<Stmt>,
     pub outputs: Vec<Stmt>,
@@ -25,7 +26,7 @@ pub struct Image {
 
 /// A variable that has the raw value of an address.
 pub struct Wired {
-    pub variable: String,
+    pub variable: Name,
     pub direction: Direction,
     pub wire: Wire,
 }

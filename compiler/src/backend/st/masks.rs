@@ -5,6 +5,7 @@ use super::code::{Stmt, and, name, not};
 use super::context::Lowering;
 use super::declaration::{Variable, constants};
 use super::modes::PutOut;
+use super::name::Name;
 use super::property::own_stop;
 use super::value::stop_value;
 use crate::ir::ByHand;
@@ -14,7 +15,7 @@ pub struct Masks {
     /// What comes before the tests.
     pub statements: Vec<Stmt>,
     /// Of each output that is masked, its name, and that of the input with the value that the steps have set.
-    pub set: Vec<(String, String)>,
+    pub set: Vec<(Name, Name)>,
 }
 
 impl Masks {
@@ -30,7 +31,7 @@ impl Masks {
                 _ => None,
             };
             for (output, stop) in lowering.own().ports[*port].iter().zip(stop) {
-                let input = lowering.free_name(&format!("{output}_set"));
+                let input = Name::from(lowering.free_name(&format!("{output}_set")));
                 put.add(output, [name(&input), stop], published, panel.clone());
                 set.push((output.clone(), input));
             }
@@ -47,7 +48,7 @@ impl Masks {
 }
 
 /// Makes the candidates of these outputs inputs with what the steps have set; the variables that are put out.
-pub fn put_out(candidates: &mut [Candidate], set: &[(String, String)]) -> Vec<Variable> {
+pub fn put_out(candidates: &mut [Candidate], set: &[(Name, Name)]) -> Vec<Variable> {
     let mut variables = Vec::new();
     for (output, input) in set {
         let Some(candidate) = candidates.iter_mut().find(|c| c.variable.name == *output) else { continue };

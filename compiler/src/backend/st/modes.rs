@@ -4,6 +4,7 @@ use super::block::{Candidate, Origin, argument, kept_values};
 use super::code::{Arm, Ex, Stmt, advance, and, assign, binary, name, not, or, when, within};
 use super::context::{Lowering, Phase, Shared};
 use super::globals::{Globals, Table};
+use super::name::Name;
 use super::names::ELEMENT;
 use super::property::own_stop;
 use crate::ir::{Action, Automaton, ByHand, Expr, ExprKind, Extent, KeptBy, Modes, Place};
@@ -81,7 +82,7 @@ impl Lowering<'_> {
     }
 
     /// The variables of outputs that are as at power-up when the robot begins anew.
-    pub fn outputs_that_stop(&self) -> Vec<&String> {
+    pub fn outputs_that_stop(&self) -> Vec<&Name> {
         self.automaton().outputs_that_stop().flat_map(|port| &self.own().ports[port]).collect()
     }
 
@@ -151,7 +152,7 @@ pub fn by_hand(shared: Shared, robot: usize, by_hand: &ByHand) -> Option<Vec<Ex>
     let ByHand::Panel(value) = by_hand else { return None };
     let of = |expr: &Expr| match expr.kind {
         ExprKind::Read(Place::Port { port, .. }) => {
-            Some(argument(shared, robot, "", &Origin::Input { port, part: 0 }))
+            Some(argument(shared, robot, &Name::default(), &Origin::Input { port, part: 0 }))
         }
         _ => None,
     };

@@ -2,6 +2,7 @@
 
 use super::alarm::OLDEST_ACKNOWLEDGED;
 use super::declaration::suffixes;
+use super::name::Name;
 use super::restart::KEPT;
 use super::role::{self, Members};
 use super::walk;
@@ -105,7 +106,7 @@ pub struct Names {
     /// Of each device that has robots and commands.
     pub commands: BTreeMap<String, EnumNames>,
     pub interfaces: Vec<InterfaceNames>,
-    pub relations: Vec<String>,
+    pub relations: Vec<Name>,
     pub automata: Vec<AutomatonNames>,
     pub robots: Vec<RobotNames>,
     /// The entries of the table of alarms before those of each robot.
@@ -125,14 +126,14 @@ pub struct EnumNames {
 /// The variables that hold one value: one, or three for a point.
 #[derive(Default)]
 pub struct Held {
-    names: Vec<String>,
+    names: Vec<Name>,
     /// Of a point, where it is one variable: a structure.
-    pub whole: Option<String>,
+    pub whole: Option<Name>,
 }
 
 impl<'a> IntoIterator for &'a Held {
-    type Item = &'a String;
-    type IntoIter = std::slice::Iter<'a, String>;
+    type Item = &'a Name;
+    type IntoIter = std::slice::Iter<'a, Name>;
 
     fn into_iter(self) -> Self::IntoIter {
         self.names.iter()
@@ -140,9 +141,9 @@ impl<'a> IntoIterator for &'a Held {
 }
 
 impl Deref for Held {
-    type Target = Vec<String>;
+    type Target = Vec<Name>;
 
-    fn deref(&self) -> &Vec<String> {
+    fn deref(&self) -> &Vec<Name> {
         &self.names
     }
 }
@@ -150,10 +151,10 @@ impl Deref for Held {
 #[derive(Default)]
 pub struct InterfaceNames {
     /// The array of its rows and the type of one, where they are structures.
-    pub rows: String,
+    pub rows: Name,
     pub structure: String,
     /// The cells as fields of it.
-    pub fields: Vec<String>,
+    pub fields: Vec<Name>,
     pub cells: Vec<Held>,
     pub parameters: Vec<Held>,
 }
@@ -169,26 +170,26 @@ pub struct AutomatonNames {
     pub tables: Vec<Held>,
     pub roles: Vec<RoleNames>,
     /// The own row in each interface.
-    pub rows: Vec<String>,
+    pub rows: Vec<Name>,
     pub locals: Vec<Held>,
     pub defines: Vec<Held>,
     pub ports: Vec<Held>,
-    pub variables: Vec<String>,
+    pub variables: Vec<Name>,
     /// For temporary variables.
     pub scope: Scope,
 }
 
 pub struct RoleNames {
-    pub members: String,
-    pub count: String,
+    pub members: Name,
+    pub count: Name,
 }
 
 pub struct RobotNames {
-    pub instance: String,
-    pub properties: String,
+    pub instance: Name,
+    pub properties: Name,
     pub ports: Vec<Held>,
     pub parameters: Vec<Held>,
-    pub roles: Vec<String>,
+    pub roles: Vec<Name>,
 }
 
 pub fn names(system: &System) -> Names {
@@ -207,7 +208,7 @@ pub fn names(system: &System) -> Names {
     let relations = (model.relations.iter())
         .map(|r| {
             let (from, to) = (model.interface(r.from), model.interface(r.to));
-            global.take(&format!("{}_reaches_{}", snake(&from.name), snake(&to.name)))
+            global.take(&format!("{}_reaches_{}", snake(&from.name), snake(&to.name))).into()
         })
         .collect();
     let tables: Vec<_> =
@@ -234,8 +235,8 @@ pub fn names(system: &System) -> Names {
     PROGRAM.iter().for_each(|name| drop(program.take(name)));
     let robots = (robots.into_iter().zip(&system.instances))
         .map(|(robot, i)| RobotNames {
-            instance: program.take(&i.name),
-            properties: program.take(&format!("{}_properties", i.name)),
+            instance: program.take(&i.name).into(),
+            properties: program.take(&format!("{}_properties", i.name)).into(),
             ..robot
         })
         .collect();
@@ -303,8 +304,8 @@ fn states(automaton: &Automaton, global: &mut Scope, renamed: &mut Vec<(String, 
 fn held(scope: &mut Scope, wanted: &str, scalar: Scalar) -> Held {
     let names = scope.take_all(wanted, suffixes(scalar));
     let beginning = names[0].strip_suffix("_x").filter(|_| scalar == Scalar::Point);
-    let whole = beginning.map(|beginning| scope.take_whole(wanted, beginning));
-    Held { names, whole }
+    let whole = beginning.map(|beginning| scope.take_whole(wanted, beginning).into());
+    Held { names: names.into_iter().map(Name::from).collect(), whole }
 }
 
 fn interface_names(source: &Interface, global: &mut Scope) -> InterfaceNames {
@@ -323,10 +324,10 @@ fn structure_names(
     global: &mut Scope,
     renamed: &mut Vec<(String, Renamed)>,
 ) {
-    names.rows = global.take(&format!("{}_cells", snake(&source.name)));
+    names.rows = global.take(&format!("{}_cells", snake(&source.name))).into();
     names.structure = global.take(&format!("ST_{}", camel(&source.name)));
     let mut scope = Scope::new(&[KEPT]);
-    names.fields = source.cells.iter().map(|cell| scope.take(&cell.name)).collect();
+    names.fields = source.cells.iter().map(|cell| scope.take(&cell.name).into()).collect();
     renamed.extend(scope.renamed().iter().map(|r| (names.structure.clone(), r.clone())));
 }
 
@@ -360,11 +361,11 @@ fn automaton_names(
     let roles = (source.roles.iter())
         .map(|r| {
             let names = scope.take_all(&r.name, &["", "_count"]);
-            RoleNames { members: names[0].clone(), count: names[1].clone() }
+            RoleNames { members: Name::from(&names[0]), count: Name::from(&names[1]) }
         })
         .collect();
     let rows = (source.implements.iter())
-        .map(|i| scope.take(&format!("own_{}", snake(&system.model.interface(i.interface).name))))
+        .map(|i| scope.take(&format!("own_{}", snake(&system.model.interface(i.interface).name))).into())
         .collect();
     let defines = source.defines.iter().map(|d| held(&mut scope, &d.name, d.ty)).collect();
     let variables = variables(source, &mut scope);
@@ -388,19 +389,19 @@ fn automaton_names(
 /// Variables of one name never meet within a transition, so they share the identifier. Those of a `define` too, if it is
 /// computed before the loops of guards only; others are computed while a transition's are in use. A point is computed
 /// where it is read.
-fn variables(source: &Automaton, scope: &mut Scope) -> Vec<String> {
+fn variables(source: &Automaton, scope: &mut Scope) -> Vec<Name> {
     let mut owners = vec![0; source.variables.len()];
     for (i, define) in source.defines.iter().enumerate() {
         if define.ty == Scalar::Point || !walk::is_for_guards_only(source, i) {
             own(&define.value, i + 1, &mut owners);
         }
     }
-    let mut known: BTreeMap<(usize, &str), String> = BTreeMap::new();
+    let mut known: BTreeMap<(usize, &str), Name> = BTreeMap::new();
     let mut order: Vec<usize> = (0..owners.len()).collect();
     order.sort_by_key(|i| owners[*i]);
     for i in order {
         let wanted = &source.variables[i].name;
-        known.entry((owners[i], wanted)).or_insert_with(|| scope.take(wanted));
+        known.entry((owners[i], wanted)).or_insert_with(|| scope.take(wanted).into());
     }
     (source.variables.iter().zip(&owners))
         .map(|(v, owner)| known[&(*owner, v.name.as_str())].clone())
@@ -442,9 +443,9 @@ fn robot_names(
         .collect();
     let roles = (automaton.roles.iter().zip(members))
         .map(|(r, members)| match members {
-            Members::Listed(_) => global.take(&own(&r.name)),
-            Members::All(_) => String::new(),
+            Members::Listed(_) => global.take(&own(&r.name)).into(),
+            Members::All(_) => Name::default(),
         })
         .collect();
-    RobotNames { instance: String::new(), properties: String::new(), ports, parameters, roles }
+    RobotNames { instance: Name::default(), properties: Name::default(), ports, parameters, roles }
 }

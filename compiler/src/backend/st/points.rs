@@ -2,6 +2,7 @@
 
 use super::code::{Ex, name};
 use super::declaration::{Basic, constants};
+use super::name::Name;
 use super::names::{Names, RobotNames};
 use super::print::Dialect;
 use super::value::{NO_SUCH_STATE, first_value, stop_value};
@@ -14,7 +15,7 @@ use runtime_sim::device::{Direction, Extent, PortType, Stop};
 pub struct Terminal {
     pub point: Point,
     /// The global; of an array all elements.
-    pub variable: String,
+    pub variable: Name,
     pub element: Option<usize>,
     /// What an output is at power-up.
     pub first: Option<Ex>,
@@ -126,7 +127,7 @@ fn line(system: &System) -> Vec<Terminal> {
         .collect()
 }
 
-fn terminal(robot: &str, port: &Port, part: usize, variable: &str, element: Option<usize>) -> Terminal {
+fn terminal(robot: &str, port: &Port, part: usize, variable: &Name, element: Option<usize>) -> Terminal {
     let first = || constants(stop_value(port).unwrap_or(first_value(port.ty))).swap_remove(part);
     let kind = match port.ty {
         PortType::Bool => Kind::Bool,
@@ -138,14 +139,14 @@ fn terminal(robot: &str, port: &Port, part: usize, variable: &str, element: Opti
         point: Point {
             robot: robot.into(),
             port: port.name.clone(),
-            name: element.map_or(variable.into(), |i| format!("{variable}[{i}]")),
+            name: element.map_or(variable.to_string(), |i| format!("{variable}[{i}]")),
             direction: port.direction,
             kind,
             unit: port.unit.clone(),
             stop: stop_text(port, part),
             meaning: port.meaning.clone(),
         },
-        variable: variable.into(),
+        variable: variable.clone(),
         element,
         first: (port.direction == Direction::Output).then(first),
         is_own: true,

@@ -3,7 +3,7 @@
 use super::code::{self, Arm, Ex, Member, Stmt};
 use super::values::List;
 use crate::plain;
-use std::borrow::Borrow;
+use std::borrow::{Borrow, Cow};
 use std::fmt::{self, Write};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,9 +26,9 @@ pub fn comment(text: &str) -> String {
 }
 
 /// Text on one line that neither begins nor ends a comment.
-pub fn harmless(text: &str) -> String {
-    let text = plain::line(text);
-    if text.contains('*') { text.replace("(*", "( *").replace("*)", "* )") } else { text }
+pub fn harmless(text: &str) -> Cow<'_, str> {
+    let text = plain::on_a_line(text);
+    if text.contains('*') { text.replace("(*", "( *").replace("*)", "* )").into() } else { text }
 }
 
 /// Adds a number with a point.
@@ -56,15 +56,81 @@ fn product(value: f64) -> Option<(f64, f64)> {
     }
 }
 
-impl Dialect {
-    pub fn member(self, member: &Member) -> String {
-        match (self, &member.qualified) {
-            (Dialect::Codesys | Dialect::Siemens, Some(qualified)) => qualified.clone(),
-            _ => format!("{} {}", member.value, comment(&member.note)),
+/// How a text writes the names of a unit.
+pub trait Notation {
+    /// A variable or an instance of a block.
+    fn variable(&self, name: &str, text: &mut String);
+    /// A field of a structure, an input or an output of a block.
+    fn field(&self, name: &str, text: &mut String);
+    /// The name of a member; none of one that stands as a number.
+    fn member<'m>(&self, member: &'m Member) -> Option<Cow<'m, str>>;
+}
+
+/// Names as they are.
+impl Notation for Dialect {
+    fn variable(&self, name: &str, text: &mut String) {
+        *text += name;
+    }
+
+    fn field(&self, name: &str, text: &mut String) {
+        *text += name;
+    }
+
+    fn member<'m>(&self, member: &'m Member) -> Option<Cow<'m, str>> {
+        match self {
+            Dialect::Portable => None,
+            Dialect::Codesys | Dialect::Siemens => member.qualified.as_deref().map(Cow::Borrowed),
         }
+    }
+}
+
+impl Dialect {
+    fn writer(&self) -> Writer<'_, Dialect> {
+        Writer { dialect: *self, names: self }
     }
 
     pub fn expression(self, ex: &Ex) -> String {
+        self.writer().expression(ex)
+    }
+
+    /// Adds an expression to a text.
+    pub fn write(self, ex: &Ex, text: &mut String) {
+        self.writer().write(ex, text);
+    }
+
+    /// The value in a declaration: that of a long array on several lines.
+    pub fn initial(self, value: &Ex, to: &mut impl Write) -> fmt::Result {
+        self.writer().initial(value, to)
+    }
+
+    /// Writes statements one by one.
+    pub fn statements<S: Borrow<Stmt>>(
+        self,
+        statements: impl IntoIterator<Item = S>,
+        depth: usize,
+        to: &mut impl Write,
+    ) -> fmt::Result {
+        self.writer().statements(statements, depth, to)
+    }
+}
+
+/// Writes the expressions and statements of a unit.
+pub struct Writer<'a, N> {
+    pub dialect: Dialect,
+    /// How their names are written.
+    pub names: &'a N,
+}
+
+impl<N> Clone for Writer<'_, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<N> Copy for Writer<'_, N> {}
+
+impl<N: Notation> Writer<'_, N> {
+    fn expression(self, ex: &Ex) -> String {
         let mut text = String::new();
         self.write(ex, &mut text);
         text
@@ -72,14 +138,13 @@ impl Dialect {
 
     /// SCL has literals of 64 bits, and data blocks take no expressions.
     fn factors(self, value: f64) -> Option<(f64, f64)> {
-        match self {
+        match self.dialect {
             Dialect::Portable | Dialect::Codesys => product(value),
             Dialect::Siemens => None,
         }
     }
 
-    /// Adds an expression to a text.
-    pub fn write(self, ex: &Ex, text: &mut String) {
+    fn write(self, ex: &Ex, text: &mut String) {
         match ex {
             Ex::Bool(true) => *text += "TRUE",
             Ex::Bool(false) => *text += "FALSE",
@@ -88,26 +153,33 @@ impl Dialect {
             Ex::Real(r) => match self.factors(*r) {
                 Some((rest, power)) => self.write(&code::binary("*", Ex::Real(rest), Ex::Real(power)), text),
                 None => {
-                    if self == Dialect::Siemens {
+                    if self.dialect == Dialect::Siemens {
                         *text += "LREAL#";
                     }
                     real(*r, text);
                 }
             },
-            Ex::Member(member) => *text += &self.member(member),
-            Ex::Name(name) => *text += name,
+            Ex::Member(member) => match self.names.member(member) {
+                Some(name) => *text += &name,
+                None => _ = write!(text, "{} {}", member.value, comment(&member.note)),
+            },
+            Ex::Name(name) => self.names.variable(name, text),
             Ex::Element(name, index) => {
-                *text += name;
+                self.names.variable(name, text);
                 self.write_all("[", std::slice::from_ref(&**index), "]", text);
             }
-            Ex::Field(instance, output) => text.extend([instance, ".", output]),
+            Ex::Field(instance, output) => {
+                self.names.variable(instance, text);
+                text.push('.');
+                self.names.field(output, text);
+            }
             Ex::Within(row, each, element) => {
                 self.write(&code::sum(code::times((**row).clone(), *each), (**element).clone()), text);
             }
             Ex::Part(of, field) => {
                 self.write(of, text);
                 text.push('.');
-                *text += field;
+                self.names.field(field, text);
             }
             Ex::Item(of, indices) => {
                 self.write(of, text);
@@ -116,7 +188,7 @@ impl Dialect {
             Ex::List(list) => text.extend(["[", &self.list(list).collect::<Vec<_>>().join(", "), "]"]),
             Ex::Fields(fields) => {
                 for (i, (name, value)) in fields.iter().enumerate() {
-                    text.extend([if i == 0 { "(" } else { ", " }, name, " := "]);
+                    text.extend([if i == 0 { "(" } else { ", " }, name.as_str(), " := "]);
                     self.write(value, text);
                 }
                 *text += if fields.is_empty() { "()" } else { ")" };
@@ -167,8 +239,7 @@ impl Dialect {
         *text += end;
     }
 
-    /// The value in a declaration: that of a long array on several lines.
-    pub fn initial(self, value: &Ex, to: &mut impl Write) -> fmt::Result {
+    fn initial(self, value: &Ex, to: &mut impl Write) -> fmt::Result {
         let Ex::List(list) = value else { return to.write_str(&self.expression(value)) };
         let room = WIDTH / 2 - "[\n        ".len();
         let mut length = 0;
@@ -219,7 +290,7 @@ impl Dialect {
 
     /// Those of the program begin with `F_`.
     fn function(self, name: &str) -> String {
-        match self == Dialect::Siemens && name.starts_with("F_") {
+        match self.dialect == Dialect::Siemens && name.starts_with("F_") {
             true => format!("\"{name}\""),
             false => name.into(),
         }
@@ -228,7 +299,7 @@ impl Dialect {
     /// Functions of the standard are called by position: their arguments have no names.
     fn write_argument(self, name: &str, value: &Ex, text: &mut String) {
         if !name.is_empty() {
-            *text += name;
+            self.names.field(name, text);
             *text += " := ";
         }
         self.write(value, text);
@@ -266,7 +337,7 @@ impl Dialect {
         depth: usize,
         to: &mut impl Write,
     ) -> fmt::Result {
-        let mut printer = Printer { dialect: self, text: String::new() };
+        let mut printer = Printer { writer: self, text: String::new() };
         for statement in statements {
             printer.statement(statement.borrow(), depth);
             to.write_str(&printer.text)?;
@@ -276,12 +347,12 @@ impl Dialect {
     }
 }
 
-struct Printer {
-    dialect: Dialect,
+struct Printer<'a, N> {
+    writer: Writer<'a, N>,
     text: String,
 }
 
-impl Printer {
+impl<N: Notation> Printer<'_, N> {
     fn line(&mut self, depth: usize, text: &str) {
         self.indent(depth);
         self.text += text;
@@ -309,11 +380,11 @@ impl Printer {
 
     /// A line that begins and ends so around a condition.
     fn conditional(&mut self, depth: usize, begin: &str, condition: &Ex, end: &str) {
-        let text = format!("{begin} {} {end}", self.dialect.expression(condition));
+        let text = format!("{begin} {} {end}", self.writer.expression(condition));
         let (true, Ex::Chain(operator, parts)) = (4 * depth + text.len() > WIDTH, condition) else {
             return self.line(depth, &text);
         };
-        let parts = self.dialect.operands(parts);
+        let parts = self.writer.operands(parts);
         let last = parts.len() - 1;
         for (i, part) in parts.iter().enumerate() {
             let tail = if i == last { format!(" {end}") } else { String::new() };
@@ -334,15 +405,15 @@ impl Printer {
             Stmt::Assign(target, assigned) => {
                 let begin = self.text.len();
                 self.indent(depth);
-                self.dialect.write(target, &mut self.text);
+                self.writer.write(target, &mut self.text);
                 self.text += " := ";
                 match assigned {
                     // The comment of a member stands behind the statement.
-                    Ex::Member(m) if self.dialect == Dialect::Portable || m.qualified.is_none() => {
+                    Ex::Member(m) if self.writer.names.member(m).is_none() => {
                         let _ = write!(self.text, "{}; {}", m.value, comment(&m.note));
                     }
                     _ => {
-                        self.dialect.write(assigned, &mut self.text);
+                        self.writer.write(assigned, &mut self.text);
                         self.text.push(';');
                     }
                 }
@@ -351,8 +422,8 @@ impl Printer {
                         self.text.truncate(begin);
                         let begin = format!(
                             "{} := {}",
-                            self.dialect.expression(target),
-                            self.dialect.function(function)
+                            self.writer.expression(target),
+                            self.writer.function(function)
                         );
                         let arguments = arguments.iter().map(|(name, value)| (*name, value));
                         self.call(&begin, arguments, depth);
@@ -371,12 +442,12 @@ impl Printer {
                 self.line(depth, "END_IF;");
             }
             Stmt::Case { selector, branches, otherwise } => {
-                let selector = self.dialect.expression(selector);
+                let selector = self.writer.expression(selector);
                 self.line(depth, &format!("CASE {selector} OF"));
                 for (label, body) in branches {
-                    let label = match (self.dialect, &label.qualified) {
-                        (Dialect::Codesys | Dialect::Siemens, Some(qualified)) => format!("{qualified}:"),
-                        _ => format!("{}: {}", label.value, comment(&label.note)),
+                    let label = match self.writer.names.member(label) {
+                        Some(name) => format!("{name}:"),
+                        None => format!("{}: {}", label.value, comment(&label.note)),
                     };
                     self.line(depth + 1, &label);
                     self.block(body, depth + 2);
@@ -393,7 +464,9 @@ impl Printer {
             Stmt::Exit => self.line(depth, "EXIT;"),
             Stmt::Return => self.line(depth, "RETURN;"),
             Stmt::Call { instance, arguments } => {
-                self.call(instance, arguments.iter().map(|(name, value)| (name.as_str(), value)), depth);
+                let mut begin = String::new();
+                self.writer.names.variable(instance, &mut begin);
+                self.call(&begin, arguments.iter().map(|(name, value)| (name.as_str(), value)), depth);
             }
         }
     }
@@ -416,7 +489,7 @@ impl Printer {
             if i > 0 {
                 one_line += ", ";
             }
-            self.dialect.write_argument(name, value, &mut one_line);
+            self.writer.write_argument(name, value, &mut one_line);
             // The brackets and the semicolon have three characters.
             if 4 * depth + one_line.len() + 2 > WIDTH {
                 return self.long_call(begin, arguments, depth);
@@ -435,7 +508,7 @@ impl Printer {
         let mut arguments = arguments.peekable();
         while let Some((name, value)) = arguments.next() {
             self.indent(depth + 1);
-            self.dialect.write_argument(name, value, &mut self.text);
+            self.writer.write_argument(name, value, &mut self.text);
             self.text += if arguments.peek().is_none() { ");\n" } else { ",\n" };
         }
     }

@@ -3,7 +3,7 @@
 use super::alarm;
 use super::block::{Block, publishes};
 use super::body::Body;
-use super::code::{Arm, Ex, Stmt, and, assign, binary, name, not, or, when};
+use super::code::{self, Arm, Ex, Stmt, and, assign, binary, name, not, or, when};
 use super::context::Shared;
 use super::declaration::{Basic, Instance, Unit, Variable, constants};
 use super::externals::Externals;
@@ -11,13 +11,14 @@ use super::filling::Filling;
 use super::globals::{Globals, Table};
 use super::image::Image;
 use super::modes::{self, PutOut};
+use super::name::Name;
 use super::names::{ELEMENT, ROUNDED};
 use super::property;
 use super::restart;
 use super::value::{first_value, stop_value};
 use super::watchdog;
 use runtime_sim::device::Direction;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::HashSet;
 use std::sync::Arc;
 
 pub const LAYOUT: &str = "FB_Layout";
@@ -50,7 +51,7 @@ pub fn statements<'a>(shared: Shared<'a>, blocks: &Arc<Vec<Option<Blocks<'a>>>>,
     });
     let instances = retained.map(|robot| shared.names.robots[robot].instance.as_str());
     first.extend(restart::begin(shared, instances));
-    let cold = vec![("cold_start".to_string(), not(name("init_done")))];
+    let cold = vec![("cold_start".into(), not(name("init_done")))];
     first.push(Stmt::Call { instance: "layout".into(), arguments: cold });
     first.extend(commented("Inputs: from raw values.", &image.inputs));
     first.push(Stmt::Comment(
@@ -98,7 +99,7 @@ pub fn program<'a>(
     shared: Shared,
     blocks: &[Option<Blocks>],
     body: Body<'a>,
-    used: &HashSet<String>,
+    used: &HashSet<Name>,
 ) -> Unit<'a> {
     let instance = |name: &str, block: &str, comment: String| Instance {
         name: name.into(),
@@ -152,7 +153,7 @@ fn commented(text: &str, statements: &[Stmt]) -> Vec<Stmt> {
 
 fn status(shared: Shared) -> Vec<Stmt> {
     let has_fault = || binary("<>", name("fault_code"), Ex::Int(0));
-    let edge = |input: &str| and(vec![name(&format!("{input}_now")), not(name(&format!("{input}_before")))]);
+    let edge = |input: &str| and(vec![name(format!("{input}_now")), not(name(format!("{input}_before")))]);
     let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
     let mut body = vec![
         Stmt::Comment(
@@ -234,9 +235,12 @@ pub fn layout<'a>(globals: &Arc<Globals>) -> Unit<'a> {
         first.push(Stmt::Comment("Shared cells.".into()));
         first.extend(restart::cells(&globals.cells));
     }
+    let mut used = code::names(&first);
     let mut body = Body::from(first);
     let mut fill = |about: &str, tables: &[Table]| {
         let Filling { loops, others } = Filling::new(tables, ELEMENT);
+        used.extend(code::names(&loops));
+        used.extend(others.iter().map(|others| others.table.clone()));
         body.push([Stmt::Comment(about.into())]);
         body.push(loops);
         body.push_made(others.len(), move |i| others[i].statements());
@@ -247,8 +251,6 @@ pub fn layout<'a>(globals: &Arc<Globals>) -> Unit<'a> {
     if !globals.alarms.is_empty() {
         fill("Alarms.", &globals.alarms);
     }
-    let mut used = HashSet::new();
-    body.names_and_functions(&mut used, &mut BTreeSet::new());
     let counter = Variable::new(ELEMENT, Basic::Dint).with_comment("number of an element");
     Unit {
         name: LAYOUT.into(),

@@ -9,6 +9,7 @@ use super::context::{Lowering, Shared};
 use super::declaration::{Basic, Variable};
 use super::filling::Filling;
 use super::globals::{Globals, Table};
+use super::name::Name;
 use super::names::ELEMENT;
 use super::value::NOT_RETAINED;
 use crate::ir::InterfaceId;
@@ -143,7 +144,7 @@ impl Lowering<'_> {
             }
         }
         body.push(assign("elapsed", Ex::Int(0)));
-        let told: Vec<String> = (automaton.abandoned.iter().chain(&automaton.interrupted))
+        let told: Vec<Name> = (automaton.abandoned.iter().chain(&automaton.interrupted))
             .map(|local| self.own().locals[*local][0].clone())
             .collect();
         let others: Vec<&Candidate> =

@@ -8,10 +8,10 @@ mod copies;
 mod quotes;
 
 use super::Line;
-use super::code::{Arm, Ex, Member, Stmt, expressions};
+use super::code::{Ex, Member, Stmt, expressions};
 use super::context::Shared;
 use super::declaration::{self, Instance, Unit, Variable};
-use super::print::{Dialect, comment, harmless};
+use super::print::{Dialect, Notation, Writer, comment, harmless};
 use super::structured::Structure;
 use super::text::{made_from, render};
 use super::values::Elements;
@@ -101,8 +101,7 @@ fn main(shared: Shared, line: &Line, to: &mut Formatter) -> fmt::Result {
     };
     write!(to, "\n{data}\n")?;
     line.functions.iter().try_for_each(|function| write!(to, "\n{}", function_text(function.text)))?;
-    let names: HashSet<&str> = line.globals.all().map(|variable| variable.name.as_str()).collect();
-    line.units().try_for_each(|unit| block(unit, &made_from, &|name| names.contains(name), to))?;
+    line.units().try_for_each(|unit| block(unit, &made_from, to))?;
     let instance = include_str!("../../../../templates/plc/siemens/instance.scl");
     // What its blocks retain, they say.
     match is_retained {
@@ -117,7 +116,7 @@ fn sections(keyword: &str, variables: &[Variable], to: &mut Formatter) -> fmt::R
 
 fn declared(variable: &Variable, to: &mut impl Write) -> fmt::Result {
     match is_word(&variable.name) {
-        true => Variable { name: quoted(&variable.name), ..variable.clone() }.line(DIALECT, to),
+        true => Variable { name: quoted(&variable.name).into(), ..variable.clone() }.line(DIALECT, to),
         false => variable.line(DIALECT, to),
     }
 }
@@ -200,7 +199,7 @@ fn assign_field(place: &mut String, field: &str, value: &Ex, to: &mut Formatter)
     Ok(())
 }
 
-fn block(unit: &Unit, made_from: &str, is_global: &impl Fn(&str) -> bool, to: &mut Formatter) -> fmt::Result {
+fn block(unit: &Unit, made_from: &str, to: &mut Formatter) -> fmt::Result {
     let constants = Constants::of(unit);
     let instance = |i: &Instance, f: &mut Formatter| {
         writeln!(f, "    {} : \"{}\";{}", quoted(&i.name), i.block, i.about())
@@ -208,13 +207,13 @@ fn block(unit: &Unit, made_from: &str, is_global: &impl Fn(&str) -> bool, to: &m
     let constant = |(name, member): (&String, &Member), f: &mut Formatter| {
         writeln!(f, "    {} : DINT := {};", of_constant(name), member.value)
     };
-    let given: BTreeSet<&str> =
-        unit.inputs.iter().chain(&unit.references).map(|variable| variable.name.as_str()).collect();
-    let is_global = |name: &str| is_global(name) && !given.contains(name);
-    let own = Names { is_global: &is_global, constants: &constants };
+    let declared = [&unit.inputs, &unit.outputs, &unit.references, &unit.variables].into_iter().flatten();
+    let declared = declared.map(|variable| variable.name.as_str());
+    let own = declared.chain(unit.instances.iter().map(|instance| instance.name.as_str())).collect();
+    let names = Names { own, constants: &constants };
     let text = Block {
         name: if unit.name == "MAIN" { CALLER } else { &unit.name },
-        comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),
+        comments: unit.comments.iter().map(|line| harmless(line.trim()).into_owned()).collect(),
         made_from,
         sections: part(|f| {
             sections("VAR_INPUT", &unit.inputs, f)?;
@@ -225,8 +224,8 @@ fn block(unit: &Unit, made_from: &str, is_global: &impl Fn(&str) -> bool, to: &m
             declaration::block("VAR CONSTANT", constants.in_order().into_iter(), constant, f)
         }),
         body: part(|f| {
-            let statements = |piece: Cow<[Stmt]>| DIALECT.statements(own.statements(&piece), 1, f);
-            unit.body.pieces().try_for_each(statements)
+            let writer = Writer { dialect: DIALECT, names: &names };
+            unit.body.pieces().try_for_each(|piece| writer.statements(piece.iter(), 1, f))
         }),
     };
     write!(to, "\n{text}\n")
@@ -273,10 +272,9 @@ impl Constants {
         all
     }
 
-    /// The same member with the name of its constant, or as a number.
-    fn member(&self, member: &Member) -> Member {
-        let name = Self::name(member).filter(|name| self.names.contains_key(name));
-        Member { qualified: name.map(|name| format!("#{}", of_constant(&name))), ..member.clone() }
+    /// The name of a member's constant, if it has one.
+    fn name_of(&self, member: &Member) -> Option<String> {
+        Self::name(member).filter(|name| self.names.contains_key(name))
     }
 }
 
@@ -334,82 +332,27 @@ fn labels<'a>(statements: &'a [Stmt], found: &mut Vec<&'a Member>) {
 }
 
 /// Names as SCL writes them.
-struct Names<'a, G> {
-    is_global: &'a G,
+struct Names<'a> {
+    /// What the block declares; all else is shared.
+    own: HashSet<&'a str>,
     constants: &'a Constants,
 }
 
-impl<G: Fn(&str) -> bool> Names<'_, G> {
-    fn name(&self, name: &str) -> String {
-        let mut text = String::with_capacity(name.len() + "\"\".\"\"".len() + SHARED.len());
-        match (self.is_global)(name) {
-            true => text.extend(["\"", SHARED, "\"."]),
-            false => text.push('#'),
+impl Notation for Names<'_> {
+    fn variable(&self, name: &str, text: &mut String) {
+        match self.own.contains(name) {
+            true => text.push('#'),
+            false => text.extend(["\"", SHARED, "\"."]),
         }
-        push_quoted(name, &mut text);
-        text
+        push_quoted(name, text);
     }
 
-    fn statements(&self, statements: &[Stmt]) -> Vec<Stmt> {
-        statements.iter().map(|statement| self.statement(statement)).collect()
+    fn field(&self, name: &str, text: &mut String) {
+        push_quoted(name, text);
     }
 
-    fn statement(&self, statement: &Stmt) -> Stmt {
-        match statement {
-            Stmt::Comment(_) | Stmt::Exit | Stmt::Return => statement.clone(),
-            Stmt::Assign(target, value) => Stmt::Assign(self.ex(target), self.ex(value)),
-            Stmt::If(arms, otherwise) => {
-                let arm = |arm: &Arm| Arm {
-                    comments: arm.comments.clone(),
-                    condition: self.ex(&arm.condition),
-                    body: self.statements(&arm.body),
-                };
-                Stmt::If(arms.iter().map(arm).collect(), self.statements(otherwise))
-            }
-            Stmt::Case { selector, branches, otherwise } => {
-                let branches = branches
-                    .iter()
-                    .map(|(label, body)| (self.constants.member(label), self.statements(body)));
-                Stmt::Case {
-                    selector: self.ex(selector),
-                    branches: branches.collect(),
-                    otherwise: self.statements(otherwise),
-                }
-            }
-            Stmt::While { condition, body, most } => {
-                Stmt::While { condition: self.ex(condition), body: self.statements(body), most: *most }
-            }
-            Stmt::Call { instance, arguments } => Stmt::Call {
-                instance: self.name(instance),
-                arguments: arguments.iter().map(|(name, value)| (quoted(name), self.ex(value))).collect(),
-            },
-        }
-    }
-
-    fn ex(&self, ex: &Ex) -> Ex {
-        let boxed = |ex: &Ex| Box::new(self.ex(ex));
-        match ex {
-            Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) => ex.clone(),
-            Ex::Member(member) => Ex::Member(self.constants.member(member)),
-            Ex::Name(name) => Ex::Name(self.name(name)),
-            Ex::Element(name, index) => Ex::Element(self.name(name), boxed(index)),
-            Ex::Field(instance, output) => Ex::Field(self.name(instance), quoted(output)),
-            Ex::Within(row, each, element) => Ex::Within(boxed(row), *each, boxed(element)),
-            Ex::Part(of, field) => Ex::Part(boxed(of), quoted(field)),
-            Ex::Item(of, indices) => {
-                Ex::Item(boxed(of), indices.iter().map(|index| self.ex(index)).collect())
-            }
-            Ex::List(_) | Ex::Fields(_) => ex.clone(),
-            Ex::Not(a) => Ex::Not(boxed(a)),
-            Ex::Minus(a) => Ex::Minus(boxed(a)),
-            Ex::Binary(operator, a, b) => Ex::Binary(operator, boxed(a), boxed(b)),
-            Ex::Chain(operator, parts) => {
-                Ex::Chain(operator, parts.iter().map(|part| self.ex(part)).collect())
-            }
-            Ex::Call(function, arguments) => {
-                Ex::Call(function, arguments.iter().map(|(name, value)| (*name, self.ex(value))).collect())
-            }
-        }
+    fn member<'m>(&self, member: &'m Member) -> Option<Cow<'m, str>> {
+        self.constants.name_of(member).map(|name| format!("#{}", of_constant(&name)).into())
     }
 }
 

@@ -20,7 +20,7 @@ use super::program::Blocks;
 use super::{block::Block, declaration::Unit};
 use crate::ir::AutomatonId;
 use crate::naming::st::Scope;
-pub use access::Places;
+use access::Places;
 use calls::Calls;
 pub use enumerations::Enumerated;
 use std::sync::Arc;
@@ -36,16 +36,30 @@ pub struct Structure {
     pub fields: Vec<Variable>,
 }
 
-/// The line with structures. `shared_places` are those of [`Places::shared`], `scope` has the names of the program.
+/// What the line has alike in all flavours with structures.
+pub struct Common {
+    places: Places,
+    /// For each robot.
+    ports: Arc<Vec<Vec<Arc<Variable>>>>,
+}
+
+impl Common {
+    pub fn new(shared: Shared, line: &Line) -> Self {
+        Self { places: Places::shared(shared), ports: Arc::new(globals::ports(shared, line)) }
+    }
+}
+
+/// The line with structures. `scope` has the names of the program.
 pub fn structured<'a>(
     shared: Shared<'a>,
     line: &'a Line<'a>,
-    shared_places: &Places,
+    common: &Common,
     enumerated: Enumerated,
     scope: &mut Scope,
 ) -> Line<'a> {
     let typed = enumerations::typed(shared, line, enumerated);
-    let (globals, structures) = globals::globals(shared, line, shared_places, &typed);
+    let (globals, structures) = globals::globals(shared, line, common, &typed);
+    let shared_places = &common.places;
     let index = Index::new(&globals);
     let of_unit = |unit: &Unit, id: Option<AutomatonId>| -> Given {
         let places = match id {
@@ -75,7 +89,7 @@ pub fn structured<'a>(
     let [layout, watchdog] = [0, 1].map(|i| given[i].unit.clone());
     let mut calls = Calls::new(shared, given, &line.program, shared_places);
     let mut globals = globals;
-    globals.parameters.extend(calls.name_points(&line.program.body, scope));
+    globals.parameters.extend(calls.name_points(&line.blocks, scope));
     let program = units::program(&line.program, calls);
     let (functions, blocks, globals) = (line.functions.clone(), Arc::new(blocks), Arc::new(globals));
     Line { functions, blocks, watchdog, layout, program, globals, structures }

@@ -10,7 +10,15 @@ use std::fmt::{self, Formatter};
 
 /// A line of fields.
 pub fn row(fields: &[&str]) -> String {
-    fields.iter().map(|text| csv::field(text)).collect::<Vec<_>>().join(",") + "\n"
+    let mut line = String::new();
+    for (i, text) in fields.iter().enumerate() {
+        if i > 0 {
+            line.push(',');
+        }
+        line += &csv::field(text);
+    }
+    line.push('\n');
+    line
 }
 
 /// The names that could not stay as the specification has them.

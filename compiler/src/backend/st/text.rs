@@ -4,6 +4,7 @@ use super::Line;
 use super::attributes;
 use super::context::Shared;
 use super::declaration::{Unit, globals};
+use super::name::Name;
 use super::names::EnumNames;
 use super::print::{Dialect, harmless};
 use super::watchdog;
@@ -18,7 +19,7 @@ use std::fmt::{self, Write};
 struct Header {
     made_from: String,
     /// A port, if there is one.
-    example: Option<String>,
+    example: Option<Name>,
 }
 
 #[derive(Template)]
@@ -149,7 +150,7 @@ fn unit<'a>(made_from: &'a str, unit: &'a Unit<'a>, dialect: Dialect) -> Part<'a
         pragmas: attributes::pragmas(unit.attributes(dialect)),
         keyword: if unit.name == "MAIN" { "PROGRAM" } else { "FUNCTION_BLOCK" },
         name: &unit.name,
-        comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),
+        comments: unit.comments.iter().map(|line| harmless(line.trim()).into_owned()).collect(),
         made_from,
         declarations: part(move |f| unit.declarations(dialect, f)),
         body: part(move |f| body(unit, dialect, f)),
@@ -174,7 +175,8 @@ pub fn made_from(shared: Shared) -> String {
     };
     let names: Vec<String> =
         shared.sources.files().iter().filter(|f| !f.name.starts_with(library::DEVICES)).map(name).collect();
-    let text = harmless(&names.join(", "));
+    let names = names.join(", ");
+    let text = harmless(&names);
     // A comment in XML has no two hyphens side by side.
     text.replace("--", "- -").replace("--", "- -")
 }

@@ -4,6 +4,7 @@ use super::code::{Ex, Member, Stmt, advance, assign, binary, name, not, or, when
 use super::context::{Lowering, Phase};
 use super::declaration::Basic;
 use super::expression::{Spot, limited};
+use super::name::Name;
 use super::names::ELEMENT;
 use crate::ir::{Expr, Extent, FaultId, Place, Scalar, Target, Type, Update, UpdateKind};
 use std::collections::HashSet;
@@ -58,10 +59,10 @@ impl Lowering<'_> {
         };
         let note = device.verbs.iter().find(|v| v.number == verb).map_or("", |v| v.name.as_str()).to_string();
         let number =
-            [("last", "cmd"), ("got", "got"), ("ack", "ack")].map(|(input, p)| (input, name(&port(p))));
+            [("last", "cmd"), ("got", "got"), ("ack", "ack")].map(|(input, p)| (input, name(port(p))));
         let mut out = vec![
-            assign(&port("verb"), Ex::Member(Member { value: verb, note, qualified: self.verb(verb) })),
-            assign(&port("cmd"), Ex::Call("F_next_command", number.into())),
+            assign(port("verb"), Ex::Member(Member { value: verb, note, qualified: self.verb(verb) })),
+            assign(port("cmd"), Ex::Call("F_next_command", number.into())),
         ];
         let answer_counts = self.automaton().abandoned.into_iter().chain(self.automaton().interrupted);
         out.extend(answer_counts.map(|local| assign(&self.own().locals[local][0], Ex::Bool(false))));
@@ -132,7 +133,7 @@ impl Lowering<'_> {
     }
 
     /// Looks up the row of an array before the loop over its elements, if the loop writes what leads to the row.
-    fn keep_row(&mut self, spot: &mut Spot, written: &[String], out: &mut Vec<Stmt>) {
+    fn keep_row(&mut self, spot: &mut Spot, written: &[Name], out: &mut Vec<Stmt>) {
         let Some(row) = &spot.index else { return };
         let mut read = HashSet::new();
         row.names(&mut read);
@@ -269,7 +270,7 @@ impl Lowering<'_> {
     }
 
     /// An index that stays the same while these variables are written.
-    fn index_kept(&mut self, purpose: &str, index: Ex, written: &[String], out: &mut Vec<Stmt>) -> Ex {
+    fn index_kept(&mut self, purpose: &str, index: Ex, written: &[Name], out: &mut Vec<Stmt>) -> Ex {
         let stays = match &index {
             Ex::Int(_) => true,
             Ex::Name(index) => !written.contains(index),

@@ -1,6 +1,7 @@
 //! The values of tables: as many as a line has parameters, so they are held as narrow as they are, and once.
 
 use super::code::Ex;
+use super::name::Name;
 use std::sync::Arc;
 
 /// The values of a table, in the order of its elements.
@@ -92,7 +93,7 @@ pub enum Elements {
 /// A field of structures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    pub name: Arc<str>,
+    pub name: Name,
     pub values: Arc<Values>,
     /// What a structure has that does not say it.
     pub unsaid: Option<Ex>,

@@ -80,7 +80,7 @@ pub fn call(shared: Shared) -> Vec<Stmt> {
     let mut statements = vec![
         Stmt::Call {
             instance: INSTANCE.into(),
-            arguments: given.into_iter().map(|(name, value)| (name.to_string(), value)).collect(),
+            arguments: given.into_iter().map(|(name, value)| (name.into(), value)).collect(),
         },
         when(binary("<>", code(), Ex::Int(0)), stop),
     ];

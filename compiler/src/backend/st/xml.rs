@@ -360,6 +360,12 @@ struct Cdata<'a, 'b>(&'a mut Formatter<'b>);
 
 impl Write for Cdata<'_, '_> {
     fn write_str(&mut self, text: &str) -> fmt::Result {
-        self.0.write_str(&text.replace("]]>", "]]]]><![CDATA[>"))
+        for (number, part) in text.split("]]>").enumerate() {
+            if number > 0 {
+                self.0.write_str("]]]]><![CDATA[>")?;
+            }
+            self.0.write_str(part)?;
+        }
+        Ok(())
     }
 }

@@ -3,6 +3,7 @@
 use crate::backend::st::alarm::COLUMNS;
 use crate::backend::st::code::{Ex, name};
 use crate::backend::st::context::Shared;
+use crate::backend::st::name::Name;
 use crate::backend::st::names::Held;
 use crate::ir::AutomatonId;
 use std::collections::HashMap;
@@ -15,9 +16,9 @@ pub const COORDINATES: [&str; 3] = ["x", "y", "z"];
 #[derive(Clone, Debug)]
 pub struct Place {
     /// The variable.
-    pub of: String,
+    pub of: Name,
     /// The field of its elements.
-    pub field: Option<String>,
+    pub field: Option<Name>,
     pub coordinate: Option<&'static str>,
 }
 
@@ -25,10 +26,10 @@ pub struct Place {
 #[derive(Clone, Default)]
 pub struct Places {
     /// What all units share.
-    shared: Arc<HashMap<String, Place>>,
-    own: HashMap<String, Place>,
+    shared: Arc<HashMap<Name, Place>>,
+    own: HashMap<Name, Place>,
     /// What the instances of blocks have.
-    instances: HashMap<String, Arc<Places>>,
+    instances: HashMap<Name, Arc<Places>>,
 }
 
 impl Places {
@@ -47,7 +48,7 @@ impl Places {
         shared.names.automata.iter().flat_map(|names| &names.tables).for_each(|held| places.point(held));
         for column in COLUMNS {
             let place = Place { of: "alarms".into(), field: Some(column.into()), coordinate: None };
-            places.own.insert(format!("alarms_{column}"), place);
+            places.own.insert(format!("alarms_{column}").into(), place);
         }
         Self { shared: Arc::new(places.own), ..Self::default() }
     }
@@ -62,7 +63,7 @@ impl Places {
     }
 
     /// With what the instances of the program have.
-    pub fn of_program(&self, instances: HashMap<String, Arc<Places>>) -> Self {
+    pub fn of_program(&self, instances: HashMap<Name, Arc<Places>>) -> Self {
         Self { instances, ..self.clone() }
     }
 
@@ -72,14 +73,14 @@ impl Places {
         }
     }
 
-    fn add(&mut self, held: &Held, of: &str, field: Option<&String>) {
+    fn add(&mut self, held: &Held, of: &Name, field: Option<&Name>) {
         let coordinates = COORDINATES.iter().filter(|_| held.whole.is_some());
         let coordinates: Vec<Option<&'static str>> = match held.whole {
             Some(_) => coordinates.map(|c| Some(*c)).collect(),
             None => vec![None],
         };
         for (name, coordinate) in held.iter().zip(coordinates) {
-            self.own.insert(name.clone(), Place { of: of.into(), field: field.cloned(), coordinate });
+            self.own.insert(name.clone(), Place { of: of.clone(), field: field.cloned(), coordinate });
         }
     }
 
@@ -88,9 +89,9 @@ impl Places {
     }
 
     /// An output of an instance.
-    pub fn output(&self, instance: &str, held: &str) -> Ex {
+    pub fn output(&self, instance: &Name, held: &Name) -> Ex {
         let place = self.instances.get(instance).and_then(|places| places.get(held));
-        let field = |of: &str| Ex::Field(instance.into(), of.into());
+        let field = |of: &Name| Ex::Field(instance.clone(), of.clone());
         match place {
             Some(Place { of, coordinate: Some(coordinate), .. }) => {
                 Ex::Part(Box::new(field(of)), (*coordinate).into())
@@ -100,24 +101,24 @@ impl Places {
     }
 
     /// What the portable text calls so.
-    pub fn read(&self, held: &str, index: Option<Ex>) -> Ex {
-        let plain = Place { of: held.into(), field: None, coordinate: None };
+    pub fn read(&self, held: &Name, index: Option<Ex>) -> Ex {
+        let plain = Place { of: held.clone(), field: None, coordinate: None };
         let place = self.get(held).unwrap_or(&plain);
-        let part = |of: Ex, field: &str| Ex::Part(Box::new(of), field.into());
+        let part = |of: Ex, field: Name| Ex::Part(Box::new(of), field);
         let found = match (&place.field, index) {
             (None, None) => name(&place.of),
             (None, Some(Ex::Within(row, _, element))) => {
                 Ex::Item(Box::new(name(&place.of)), vec![*row, *element])
             }
             (None, Some(index)) => Ex::Element(place.of.clone(), Box::new(index)),
-            (Some(field), None) => part(name(&place.of), field),
+            (Some(field), None) => part(name(&place.of), field.clone()),
             (Some(field), Some(Ex::Within(row, _, element))) => {
-                Ex::Item(Box::new(part(Ex::Element(place.of.clone(), row), field)), vec![*element])
+                Ex::Item(Box::new(part(Ex::Element(place.of.clone(), row), field.clone())), vec![*element])
             }
-            (Some(field), Some(index)) => part(Ex::Element(place.of.clone(), Box::new(index)), field),
+            (Some(field), Some(index)) => part(Ex::Element(place.of.clone(), Box::new(index)), field.clone()),
         };
         match place.coordinate {
-            Some(coordinate) => part(found, coordinate),
+            Some(coordinate) => part(found, coordinate.into()),
             None => found,
         }
     }

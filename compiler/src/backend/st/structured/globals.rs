@@ -2,28 +2,22 @@
 
 use super::access::Places;
 use super::enumerations::Typed;
-use super::units::variables_of;
-use super::{POINT, Structure};
+use super::{Common, POINT, Structure};
 use crate::backend::st::Line;
 use crate::backend::st::code::Ex;
 use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::{Basic, Variable};
 use crate::backend::st::globals::{Globals, Table, about, meaning, rows};
+use crate::backend::st::name::Name;
+use crate::backend::st::names::Held;
 use crate::backend::st::restart;
 use crate::backend::st::values::{Elements, Field, List};
 use crate::ir::{Extent, InterfaceId, Scalar};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-pub fn globals(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> (Globals, Vec<Structure>) {
-    // No port is of an enumeration.
-    let of_robot = |ports: &[Arc<Variable>]| match ports.iter().any(|port| places.get(&port.name).is_some()) {
-        true => {
-            let ports = ports.iter().map(|port| &**port);
-            variables_of(ports, "", places, typed).into_iter().map(Arc::new).collect()
-        }
-        false => ports.to_vec(),
-    };
+pub fn globals(shared: Shared, line: &Line, common: &Common, typed: &Typed) -> (Globals, Vec<Structure>) {
+    let places = &common.places;
     let mut structures = vec![point()];
     let mut cells = Vec::new();
     for id in (0..shared.system.model.interfaces.len()).map(InterfaceId) {
@@ -40,7 +34,7 @@ pub fn globals(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> (
     alarms.extend(of_robots.map(|table| Table::declared(with_values(table))));
     let globals = Globals {
         system: line.globals.system.clone(),
-        ports: line.globals.ports.iter().map(|ports| of_robot(ports)).collect(),
+        ports: common.ports.clone(),
         raw: line.globals.raw.clone(),
         cells,
         parameters: parameters(shared, line, places, typed),
@@ -48,6 +42,29 @@ pub fn globals(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> (
         unread: Vec::new(),
     };
     (globals, structures)
+}
+
+/// For each robot its ports, with points as such. None is of an enumeration.
+pub fn ports(shared: Shared, line: &Line) -> Vec<Vec<Arc<Variable>>> {
+    let robots = shared.names.robots.iter().zip(&*line.globals.ports);
+    robots.map(|(names, ports)| with_points(&names.ports, ports)).collect()
+}
+
+fn with_points(names: &[Held], mut ports: &[Arc<Variable>]) -> Vec<Arc<Variable>> {
+    let mut out = Vec::with_capacity(names.len());
+    for held in names {
+        let (parts, others) = ports.split_at(held.len());
+        match (&held.whole, parts) {
+            (Some(whole), [first, ..]) => {
+                let structure = Some(POINT.into());
+                let point = Variable { name: whole.clone(), structure, initial: None, ..(**first).clone() };
+                out.push(Arc::new(point));
+            }
+            _ => out.extend(parts.iter().cloned()),
+        }
+        ports = others;
+    }
+    out
 }
 
 fn point() -> Structure {
@@ -59,8 +76,7 @@ fn point() -> Structure {
 /// The cells of an interface that are used.
 fn interface(shared: Shared, line: &Line, id: InterfaceId, typed: &Typed) -> Option<(Structure, Variable)> {
     let (interface, names) = (shared.system.model.interface(id), &shared.names.interfaces[id.0]);
-    let is_used =
-        |held: &[String]| line.globals.cells.iter().any(|table| held.contains(&table.variable.name));
+    let is_used = |held: &[Name]| line.globals.cells.iter().any(|table| held.contains(&table.variable.name));
     let cells = interface.cells.iter().zip(&names.cells).zip(&names.fields);
     let fields: Vec<Variable> = cells
         .filter(|((_, held), _)| is_used(held))
@@ -106,7 +122,7 @@ fn table_of_alarms(line: &Line) -> Option<(Structure, Variable)> {
         .collect();
     let (_, first) = columns.first()?;
     let fields = columns.iter().map(|(name, table)| Variable {
-        name: name.to_string(),
+        name: (*name).into(),
         elements: None,
         ..table.variable.clone()
     });
@@ -141,7 +157,7 @@ fn parameters(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> Ve
         Some((place.of.clone(), place.coordinate?))
     };
     let globals = &line.globals;
-    let mut points: BTreeMap<String, Vec<(&str, &Table)>> = BTreeMap::new();
+    let mut points: BTreeMap<Name, Vec<(&str, &Table)>> = BTreeMap::new();
     for table in globals.parameters.iter().chain(&globals.unread) {
         if let Some((point, coordinate)) = of(table) {
             points.entry(point).or_default().push((coordinate, table));

@@ -6,6 +6,7 @@ use crate::backend::st::code::{Ex, Stmt, advance, and, assign, binary, name, not
 use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::{Basic, Unit, Variable};
 use crate::backend::st::globals::Table;
+use crate::backend::st::name::Name;
 use crate::backend::st::names::ELEMENT;
 use crate::backend::st::restart::{KEPT, WARM};
 use crate::backend::st::value::NOT_RETAINED;
@@ -67,7 +68,7 @@ fn cells(shared: Shared, id: InterfaceId, line: &Line, is_wanted: impl Fn(&Table
         let values = shared.constants(cell.ty.scalar, cell.initial);
         let values = held.iter().zip(values).filter(|(held, _)| is_wanted(held));
         let store = |index: Ex| {
-            move |(held, value): (&String, Ex)| {
+            move |(held, value): (&Name, Ex)| {
                 Stmt::Assign(Ex::Element(held.clone(), Box::new(index.clone())), value)
             }
         };

@@ -8,6 +8,7 @@ use super::rewrite::joined;
 use crate::backend::st::code::{self, Ex, Stmt};
 use crate::backend::st::declaration::{Unit, Variable};
 use crate::backend::st::globals::Index;
+use crate::backend::st::name::Name;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -15,16 +16,16 @@ use std::sync::Arc;
 #[derive(Clone)]
 pub struct Given<'a> {
     pub unit: Unit<'a>,
-    pub shared: Vec<String>,
+    pub shared: Vec<Name>,
     pub places: Arc<Places>,
     /// What it is called with, and the point of which that is a coordinate.
-    points: Vec<(String, Option<String>)>,
+    points: Vec<(Name, Option<Name>)>,
 }
 
 impl Given<'_> {
     /// The point of which an argument is a coordinate. Most calls have all arguments, in this order.
-    pub fn point_of(&self, number: usize, argument: &str) -> Option<&String> {
-        let is_it = |known: &&(String, Option<String>)| known.0 == argument;
+    pub fn point_of(&self, number: usize, argument: &str) -> Option<&Name> {
+        let is_it = |known: &&(Name, Option<Name>)| known.0 == argument;
         let known = self.points.get(number).filter(is_it).or_else(|| self.points.iter().find(is_it));
         known?.1.as_ref()
     }
@@ -93,7 +94,7 @@ pub fn variables_of<'v>(
 }
 
 /// The variables of which a part is written.
-fn written(statements: &[Stmt]) -> BTreeSet<String> {
+fn written(statements: &[Stmt]) -> BTreeSet<Name> {
     let mut found = BTreeSet::new();
     let mut targets = Vec::new();
     each_target(statements, &mut targets);
@@ -119,7 +120,7 @@ fn each_target<'a>(statements: &'a [Stmt], found: &mut Vec<&'a Ex>) {
     }
 }
 
-fn root(target: &Ex, found: &mut BTreeSet<String>) {
+fn root(target: &Ex, found: &mut BTreeSet<Name>) {
     match target {
         Ex::Name(name) | Ex::Element(name, _) => drop(found.insert(name.clone())),
         Ex::Part(of, _) | Ex::Item(of, _) => root(of, found),
@@ -134,10 +135,10 @@ mod tests {
     #[test]
     fn the_point_of_an_argument_does_not_depend_on_its_number() {
         let points = [("robot", None), ("at_x", Some("at")), ("rest_x", Some("rest"))];
-        let points = points.map(|(name, of)| (name.to_string(), of.map(String::from))).to_vec();
+        let points = points.map(|(name, of)| (Name::from(name), of.map(Name::from))).to_vec();
         let given = Given { unit: Unit::default(), shared: Vec::new(), places: Arc::default(), points };
         for number in 0..4 {
-            let point_of = |argument| given.point_of(number, argument).map(String::as_str);
+            let point_of = |argument| given.point_of(number, argument).map(Name::as_str);
             let found = ["robot", "at_x", "rest_x", "speed"].map(point_of);
             assert_eq!(found, [None, Some("at"), Some("rest"), None], "{number}");
         }
