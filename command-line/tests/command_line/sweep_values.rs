@@ -150,7 +150,9 @@ fn a_page_is_written_where_nobody_reads_the_table() {
         .current_dir(&folder)
         .output()
         .expect("a shell");
-    assert_eq!(errors(&output), "");
+    // The first sweep on a machine says this too.
+    let told = errors(&output).replace("compiling the controllers (once for these types) ...\n", "");
+    assert_eq!(told, "");
     assert_eq!(fs::read_to_string(folder.join("status")).expect("a file"), "0\n");
     assert!(folder.join("page.html").exists());
 }
