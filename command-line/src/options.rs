@@ -279,6 +279,9 @@ pub struct MergeOptions {
     /// The files of `autogen sweep --part`, all parts of one sweep in any order
     #[arg(required = true, value_name = "FILE")]
     pub parts: Vec<PathBuf>,
+    /// Write the rows as a page with charts to this file, for any browser
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
     #[command(flatten)]
     pub table: TableOptions,
 }

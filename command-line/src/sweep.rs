@@ -32,6 +32,7 @@ use super::print;
 use crate::Status;
 use autogen::diagnostic::Diagnostic;
 use design::RunNumber;
+use facts::Inputs;
 use head::Head;
 use outcome::Outcome;
 use part::{MOST_PARTS, Part};
@@ -111,7 +112,19 @@ fn whole(plan: &Plan, options: &SweepOptions) -> Status {
     });
     progress.clear();
     let (status, table) = rows.end();
-    match page.zip(table).map_or(Ok(()), |(page, table)| page.write(plan, options, table)) {
+    let Some((page, table)) = page.zip(table) else { return status };
+    let written = page.write_kept(plan, table.rows.len()).and_then(|kept| {
+        let inputs = Inputs::of(plan, &options.specs);
+        let facts =
+            facts::of_sweep(&plan.design, &inputs, options.until_precision.as_deref(), &options.table);
+        page.write(&plan.design, facts, table, kept)
+    });
+    status_of_page(status, written)
+}
+
+/// What the runs came to, unless their page could not be written.
+fn status_of_page(status: Status, written: Result<(), String>) -> Status {
+    match written {
         Ok(()) => status,
         Err(text) => {
             complain!("autogen: {text}");
@@ -122,7 +135,7 @@ fn whole(plan: &Plan, options: &SweepOptions) -> Status {
 
 /// The runs of a part, a line each.
 fn of_part(plan: &Plan, part: Part, options: &SweepOptions) -> Status {
-    match Head::line(plan, part) {
+    match Head::line(plan, part, &options.specs) {
         Ok(line) => say!("{line}"),
         Err(text) => return not_planned(&options.table, &Refusal::Said(text)),
     }

@@ -1,12 +1,13 @@
 //! What a page says in its head: which sweep it is, or which run of one.
 
-use super::super::options::SweepOptions;
+use super::super::options::TableOptions;
 use super::axis::Axis;
 use super::design::{Design, RunNumber};
 use super::page;
 use super::plan::Plan;
 use autogen::backend::report::sweep::Fact;
-use std::path::Path;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 
 /// Values of a list that are all named.
 const MOST_NAMED: usize = 12;
@@ -23,15 +24,45 @@ pub fn title(design: &Design) -> String {
     }
 }
 
-pub fn of_sweep(plan: &Plan, options: &SweepOptions) -> Vec<Fact> {
-    let design = &plan.design;
+/// What a page says of a sweep that its design does not say.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Inputs {
+    /// Names of files.
+    scenarios: Vec<String>,
+    types: Vec<String>,
+    seed: String,
+}
+
+impl Inputs {
+    pub fn of(plan: &Plan, specs: &[PathBuf]) -> Self {
+        let types = specs.iter().map(|path| file_name(path)).collect();
+        Self { scenarios: scenarios(plan), types, seed: seeds(plan) }
+    }
+
+    /// As a part of a sweep carries it in its first line.
+    pub fn to_json(&self) -> Value {
+        json!({ "scenarios": self.scenarios, "types": self.types, "seed": self.seed })
+    }
+
+    /// Nothing of what is not there.
+    pub fn from_json(json: &Value) -> Self {
+        let text = |json: &Value| json.as_str().unwrap_or_default().to_string();
+        let texts = |json: &Value| json.as_array().into_iter().flatten().map(text).collect();
+        Self { scenarios: texts(&json["scenarios"]), types: texts(&json["types"]), seed: text(&json["seed"]) }
+    }
+}
+
+/// `until_precision` is as written.
+pub fn of_sweep(
+    design: &Design,
+    inputs: &Inputs,
+    until_precision: Option<&str>,
+    options: &TableOptions,
+) -> Vec<Fact> {
     let mut facts = Facts::default();
     facts.add("layouts", listed(&design.layouts));
-    facts.add("scenario", listed(&scenarios(plan)));
-    if !options.specs.is_empty() {
-        facts
-            .add("types from", listed(&options.specs.iter().map(|path| file_name(path)).collect::<Vec<_>>()));
-    }
+    facts.add("scenario", listed(&inputs.scenarios));
+    facts.add("types from", listed(&inputs.types));
     let (varied, fixed): (Vec<_>, Vec<_>) = design.axes.iter().partition(|axis| axis.values.len() > 1);
     let set = |axes: Vec<&Axis>| {
         let each: Vec<String> =
@@ -46,17 +77,17 @@ pub fn of_sweep(plan: &Plan, options: &SweepOptions) -> Vec<Fact> {
     );
     facts.add("I/O delay, scans", listed(&design.delays));
     let runs = design.replications;
-    match &options.until_precision {
+    match until_precision {
         Some(precision) => facts.add("replications", format!("until {precision}, {runs} at most")),
         None => facts.add("replications", runs.to_string()),
     }
-    facts.add("seed", seeds(plan));
+    facts.add("seed", inputs.seed.clone());
     facts.add("warm-up", design.warm_up.map_or_else(String::new, |warm_up| warm_up.to_string()));
-    if options.table.compare {
+    if options.compare {
         let first = RunNumber { point: 0, replication: 0 };
         facts.add("difference to", format!("row 1: {}", point(design, first)));
     }
-    if let Some(path) = &options.table.beside {
+    if let Some(path) = &options.beside {
         facts.add("measured", file_name(path));
     }
     facts.0

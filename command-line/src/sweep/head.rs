@@ -1,6 +1,7 @@
 //! The first line of a part's file: which part it is, and of what sweep.
 
 use super::design::Design;
+use super::facts::Inputs;
 use super::part::Part;
 use super::plan::{Line, Plan};
 use crate::output;
@@ -11,6 +12,9 @@ use std::path::PathBuf;
 
 /// The key by which such a file is known.
 pub const KEY: &str = "autogen_sweep_part";
+
+/// What a page says of the inputs: names of files may differ from machine to machine, the hashes of their texts may not.
+const ABOUT: &str = "about_inputs";
 
 /// What parts of the same sweep have in common, key by key, and what it is called in a message.
 pub const COMMON: [(&str, &str); 9] = [
@@ -28,19 +32,22 @@ pub const COMMON: [(&str, &str); 9] = [
 pub struct Head {
     pub part: Part,
     pub design: Design,
+    /// For a page.
+    pub inputs: Inputs,
     /// As it was read.
     pub json: Map<String, Value>,
 }
 
 impl Head {
     /// The line of a part. An error says that the program of autogen cannot be read, whose hash stands in it.
-    pub fn line(plan: &Plan, part: Part) -> Result<String, String> {
+    pub fn line(plan: &Plan, part: Part, specs: &[PathBuf]) -> Result<String, String> {
         let mut line = Map::new();
         line.insert(KEY.into(), json!(part.number()));
         line.insert("parts".into(), json!(part.of()));
         line.insert("tool".into(), json!(tool()?));
         line.insert("inputs".into(), plan.lines.iter().map(inputs).collect());
         line.extend(plan.design.to_json());
+        line.insert(ABOUT.into(), Inputs::of(plan, specs).to_json());
         Ok(Value::Object(line).to_string())
     }
 
@@ -50,7 +57,8 @@ impl Head {
         let number = |key: &str| usize::try_from(json.get(key)?.as_u64()?).ok();
         let part = Part::new(number(KEY)?, number("parts")?)?;
         let design = Design::from_json(&Value::Object(json.clone()))?;
-        Some(Self { part, design, json })
+        let inputs = Inputs::from_json(json.get(ABOUT).unwrap_or(&Value::Null));
+        Some(Self { part, design, inputs, json })
     }
 }
 

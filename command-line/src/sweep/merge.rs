@@ -7,15 +7,17 @@ use super::super::load::Failure;
 use super::super::options::MergeOptions;
 use super::super::print;
 use super::head::{COMMON, Head};
+use super::page::Request;
 use super::part::Part;
 use super::part_file::{Line, PartFile, outcome};
 use super::plan::Refusal;
 use super::rows::Rows;
 use super::table::Table;
-use super::{format, not_planned};
+use super::{facts, format, not_planned, status_of_page};
 use crate::Status;
 use autogen::diagnostic::{Diagnostic, collect};
 use autogen::source::{Sources, Span};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 pub fn run(options: &MergeOptions) -> Status {
@@ -35,8 +37,14 @@ struct Found<'a> {
 fn merge(options: &MergeOptions) -> Result<Status, Refusal> {
     let parts = parts(&options.parts).map_err(Refusal::Failure)?;
     let Some(first) = parts.first() else { return Ok(Status::Done) };
-    let design = &first.head.design;
-    let mut rows = Rows::new(design, Table::new(design, &options.table)?);
+    let Head { design, inputs, .. } = &first.head;
+    let page = Request::new(options.report.as_deref(), None, design).map_err(Refusal::Said)?;
+    let mut table = Table::new(design, &options.table)?;
+    if page.is_some() {
+        print::go_on_without_reader();
+        table = table.keeping();
+    }
+    let mut rows = Rows::new(design, table);
     let mut files = Vec::new();
     for part in &parts {
         let mut file = PartFile::open(part.path).map_err(Refusal::Failure)?;
@@ -55,7 +63,10 @@ fn merge(options: &MergeOptions) -> Result<Status, Refusal> {
         })?;
         rows.take(design.run(index), outcome);
     }
-    Ok(rows.end().0)
+    let (status, table) = rows.end();
+    let Some((page, table)) = page.zip(table) else { return Ok(status) };
+    let facts = facts::of_sweep(design, inputs, None, &options.table);
+    Ok(status_of_page(status, page.write(design, facts, table, BTreeMap::new())))
 }
 
 /// All parts of one sweep, in the order of their numbers.

@@ -1,13 +1,12 @@
 //! The options `--report` and `--keep`: the page of a sweep, and those of some of its runs.
 
 use super::super::interrupt;
-use super::super::options::SweepOptions;
 use super::super::pending::{self, Content, Foreign, Pending};
 use super::axis::Axis;
 use super::design::{Asked, Design, RunNumber};
 use super::plan::Plan;
 use super::{facts, point};
-use autogen::backend::report::sweep::{Figure, Name, Sweep, Table, Values};
+use autogen::backend::report::sweep::{Fact, Figure, Name, Sweep, Table, Values};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -57,11 +56,11 @@ impl Request {
         }
     }
 
-    /// Runs again what is to be kept, and writes all pages.
-    pub fn write(self, plan: &Plan, options: &SweepOptions, table: Table) -> Result<(), String> {
+    /// Runs again what is to be kept, and writes the pages of these runs; their addresses by the numbers of their rows.
+    pub fn write_kept(&self, plan: &Plan, rows: usize) -> Result<BTreeMap<usize, String>, String> {
         let folder = folder(self.file.path());
         let mut kept = BTreeMap::new();
-        for row in (1..=table.rows.len()).filter(|row| self.keeps(*row)) {
+        for row in (1..=rows).filter(|row| self.keeps(*row)) {
             // A point that was refused has its reason in the table.
             let Ok(page) = point::page(plan, RunNumber { point: row - 1, replication: 0 }) else { continue };
             fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -71,15 +70,26 @@ impl Request {
             file.keep()?;
             kept.insert(row, format!("{}/{}", encoded(&folder), name_of(row)));
         }
+        Ok(kept)
+    }
+
+    /// Writes the page of the sweep.
+    pub fn write(
+        self,
+        design: &Design,
+        facts: Vec<Fact>,
+        table: Table,
+        kept: BTreeMap<usize, String>,
+    ) -> Result<(), String> {
         let sweep = Sweep {
-            title: facts::title(&plan.design),
-            facts: facts::of_sweep(plan, options),
-            figure: match plan.design.asked {
+            title: facts::title(design),
+            facts,
+            figure: match design.asked {
                 Asked::Orders => Figure::SecondsPerOrder,
                 Asked::Items => Figure::SecondsUntilGoal,
                 Asked::Throughput => Figure::ItemsPerHour,
             },
-            names: names(&plan.design),
+            names: names(design),
             table,
             kept,
         };

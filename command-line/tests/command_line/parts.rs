@@ -66,6 +66,26 @@ fn parts_make_the_bytes_of_the_whole() {
 }
 
 #[test]
+fn parts_make_the_page_of_the_whole() {
+    let folder = begun("parts_page");
+    let names: Vec<String> = [2, 1].iter().map(|number| part(&folder, *number, 2)).collect();
+    let files: Vec<&str> = names.iter().map(String::as_str).collect();
+    let page = |name: &str| fs::read_to_string(folder.join(name)).expect("a page");
+    let whole = sweep(&folder, &["--compare", "--report", "whole.html"]);
+    let merged = merge(&folder, &files, &["--compare", "--report", "merged.html"]);
+    assert_eq!((status(&whole), status(&merged)), (3, 3), "{}", errors(&merged));
+    assert!(whole.stdout == merged.stdout);
+    assert!(page("whole.html").contains("short.json"), "its scenario is named");
+    assert!(page("whole.html") == page("merged.html"));
+    // A file that is no page stays, and is told before anything is printed.
+    put(&folder, "notes.html", "by hand");
+    let refused = merge(&folder, &files, &["--report", "notes.html"]);
+    assert_eq!((status(&refused), printed(&refused)), (2, String::new()));
+    assert!(errors(&refused).contains("notes.html"), "{}", errors(&refused));
+    assert_eq!(page("notes.html"), "by hand");
+}
+
+#[test]
 fn what_is_wrong_with_parts_is_said() {
     let folder = begun("parts_wrong");
     let names: Vec<String> = (1..=3).map(|number| part(&folder, number, 3)).collect();
