@@ -324,7 +324,7 @@ impl Context<'_, '_> {
         let index = self.automaton.parameters.len();
         self.automaton.parameters.push(ir::Parameter {
             name: declared.name.clone(),
-            doc: vec![sentence(&declared.meaning, &declared.unit)],
+            doc: sentence(&declared.meaning, &declared.unit).into_iter().collect(),
             ty: Type { scalar: Scalar::from(declared.ty), extent: Extent::from(declared.extent) },
             source: ir::ParameterSource::Device,
             place: self.automaton.place,
@@ -395,11 +395,27 @@ fn defines_read(expr: &ir::Expr, found: &mut dyn FnMut(usize)) {
     }
 }
 
-fn sentence(meaning: &str, unit: &str) -> String {
-    let mut text: String =
-        meaning.chars().take(1).flat_map(char::to_uppercase).chain(meaning.chars().skip(1)).collect();
-    if !unit.is_empty() {
-        text.push_str(&format!(" [{unit}]"));
+/// With the unit behind the meaning; none of neither.
+fn sentence(meaning: &str, unit: &str) -> Option<String> {
+    let capital = meaning.chars().take(1).flat_map(char::to_uppercase);
+    let meaning: String = capital.chain(meaning.chars().skip(1)).collect();
+    match (meaning.as_str(), unit) {
+        ("", "") => None,
+        ("", unit) => Some(format!("In {unit}.")),
+        (meaning, "") => Some(format!("{meaning}.")),
+        (meaning, unit) => Some(format!("{meaning} [{unit}].")),
     }
-    text + "."
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sentence;
+
+    #[test]
+    fn a_constant_is_described_by_what_is_known_of_it() {
+        assert_eq!(sentence("speed of the belt", "m/s").as_deref(), Some("Speed of the belt [m/s]."));
+        assert_eq!(sentence("number of slots", "").as_deref(), Some("Number of slots."));
+        assert_eq!(sentence("", "m").as_deref(), Some("In m."));
+        assert_eq!(sentence("", ""), None);
+    }
 }
