@@ -82,7 +82,7 @@ pub struct InputOptions {
     #[arg(long = "set", value_name = "NAME.KEY=VALUE")]
     pub settings: Vec<String>,
     /// Steps the robots in an order drawn from this seed instead of layout order
-    #[arg(long, value_name = "SEED")]
+    #[arg(long, value_name = "SEED", allow_negative_numbers = true, value_parser = seed)]
     pub order: Option<u64>,
     #[arg(long, value_enum, default_value = "text")]
     pub format: Format,
@@ -171,7 +171,7 @@ pub struct CommissionOptions {
     #[command(flatten)]
     pub build: BuildOptions,
     /// Number of scans by which devices answer late: a number, or `random` or `random:SEED` for 0 to 5
-    #[arg(long, value_name = "N", default_value = "0")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value = "0")]
     pub io_delay: String,
     /// Write a row for each scan to this file: inputs, outputs, states and shared cells, as comma-separated
     /// values under the names of the Structured Text
@@ -198,7 +198,13 @@ pub struct TrajectoryOptions {
     #[arg(long = "trajectories", value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Seconds between two samples of a .csv, in whole milliseconds
-    #[arg(long, value_name = "SECONDS", default_value = "0.1", requires = "files")]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        allow_negative_numbers = true,
+        default_value = "0.1",
+        requires = "files"
+    )]
     pub every: String,
     /// Only these items, such as battery_1,pump_3; default: all that came onto the line
     #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "files")]
@@ -221,19 +227,19 @@ pub struct SweepOptions {
     #[arg(long = "set", value_name = "NAME.KEY=V1,V2,...")]
     pub settings: Vec<String>,
     /// Seeds of orders of the steps; without it, layout order
-    #[arg(long, value_name = "SEED,...", value_delimiter = ',')]
+    #[arg(long, value_name = "SEED,...", allow_negative_numbers = true, value_delimiter = ',', value_parser = seed)]
     pub order: Vec<u64>,
     /// Numbers of scans by which devices answer late, `random` or `random:SEED` for 0 to 5
-    #[arg(long, value_name = "N,...", value_delimiter = ',')]
+    #[arg(long, value_name = "N,...", allow_negative_numbers = true, value_delimiter = ',')]
     pub io_delay: Vec<String>,
     /// Runs of each point: the first with the seeds that are given, each further one with the seed of the supply and that
     /// of random delays one higher, the same for all points. Rows then have means, with half of the width of their 95 %
     /// intervals. Default: 1; with --until-precision, at most 100
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = replications)]
     pub replications: Option<NonZeroU32>,
     /// Repeat each point, five times at least, until half of the width of the 95 % interval of its seconds per
     /// order is at most this percentage of their mean
-    #[arg(long, value_name = "P%")]
+    #[arg(long, value_name = "P%", allow_negative_numbers = true)]
     pub until_precision: Option<String>,
     /// Orders at the start of each run that do not count for its seconds per order: `20orders`, those of the first
     /// `600s`, or `auto`, by MSER-5
@@ -251,7 +257,7 @@ pub struct SweepOptions {
     #[arg(long, value_name = "ROWS", requires = "report", conflicts_with = "part")]
     pub keep: Option<String>,
     /// Number of runs at the same time; default: one for each processor
-    #[arg(short, long, value_name = "N", value_parser = jobs)]
+    #[arg(short, long, value_name = "N", allow_negative_numbers = true, value_parser = jobs)]
     pub jobs: Option<NonZeroUsize>,
     #[command(flatten)]
     pub table: TableOptions,
@@ -315,7 +321,7 @@ pub struct VerifyOptions {
     #[command(flatten)]
     pub input: InputOptions,
     /// Greatest number of devices that answer in one scan; default: one, and if nothing is found any number
-    #[arg(long, value_name = "K")]
+    #[arg(long, value_name = "K", allow_negative_numbers = true, value_parser = answers)]
     pub answers: Option<NonZeroUsize>,
     /// No command fails and no item is lost
     #[arg(long)]
@@ -330,7 +336,7 @@ pub struct VerifyOptions {
     #[arg(long, value_name = "LIMIT")]
     pub limit: Vec<String>,
     /// Number of processors that search; default: all
-    #[arg(short, long, value_name = "N", value_parser = jobs)]
+    #[arg(short, long, value_name = "N", allow_negative_numbers = true, value_parser = jobs)]
     pub jobs: Option<NonZeroUsize>,
     /// Continue after a violation, and report each different one
     #[arg(long)]
@@ -392,4 +398,16 @@ const MOST_JOBS: usize = 1024;
 fn jobs(text: &str) -> Result<NonZeroUsize, String> {
     let number = text.parse().ok().filter(|number: &NonZeroUsize| number.get() <= MOST_JOBS);
     number.ok_or_else(|| format!("a whole number from 1 to {MOST_JOBS}"))
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "a whole number from 0".into())
+}
+
+fn replications(text: &str) -> Result<NonZeroU32, String> {
+    text.parse().map_err(|_| format!("a whole number from 1 to {}", u32::MAX))
+}
+
+fn answers(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| "a whole number from 1".into())
 }

@@ -9,7 +9,7 @@ pub struct WhyOptions {
     #[command(flatten)]
     pub input: InputOptions,
     /// Time of the run in seconds; default: its end
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub at: Option<String>,
     /// Only this machine; may be given several times
     #[arg(long, value_name = "NAME")]
@@ -18,7 +18,7 @@ pub struct WhyOptions {
     #[arg(long, requires = "at")]
     pub until: bool,
     /// Number of scans by which devices answer late: a number, or `random` or `random:SEED` for 0 to 5
-    #[arg(long, value_name = "N", default_value = "0")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value = "0")]
     pub io_delay: String,
 }
 

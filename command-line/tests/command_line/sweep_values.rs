@@ -136,6 +136,23 @@ fn values_that_no_comma_separates_are_told_so() {
     }
 }
 
+#[test]
+fn a_number_outside_of_its_range_is_told_so() {
+    let folder = folder("sweep_numbers");
+    let layout = example("ariac2021/default.json");
+    for (option, value, range) in [
+        ("--replications", "-1", "from 1 to 4294967295"),
+        ("--replications", "4294967296", "from 1 to 4294967295"),
+        ("--jobs", "-2", "from 1 to 1024"),
+        ("--order", "-1", "from 0"),
+        ("--io-delay", "-1", "up to 1000"),
+    ] {
+        let output = autogen(&folder, &["sweep", &layout, option, value]);
+        assert_eq!(status(&output), 2, "{option} {value}");
+        assert!(errors(&output).contains(range), "{option} {value}: {}", errors(&output));
+    }
+}
+
 /// Somebody waits for the page, whether or not the table is read.
 #[cfg(unix)]
 #[test]
