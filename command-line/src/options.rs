@@ -245,8 +245,8 @@ pub struct SweepOptions {
     /// `600s`, or `auto`, by MSER-5
     #[arg(long, value_name = "auto|Norders|Ss")]
     pub warm_up: Option<String>,
-    /// Only part K of N of the runs, as lines that `autogen merge` joins to a table; options for the form of the
-    /// table are for `merge`
+    /// Only part K of N of the runs, as lines that `autogen merge` joins to a table; options for the
+    /// table and its page are for `merge`
     #[arg(long, value_name = "K/N", conflicts_with_all = ["beside", "compare", "format"])]
     pub part: Option<String>,
     /// Write the rows as a page with charts to this file, for any browser

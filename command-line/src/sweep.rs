@@ -32,7 +32,7 @@ use super::print;
 use crate::Status;
 use autogen::diagnostic::Diagnostic;
 use design::RunNumber;
-use facts::Inputs;
+use facts::About;
 use head::Head;
 use outcome::Outcome;
 use part::{MOST_PARTS, Part};
@@ -114,9 +114,8 @@ fn whole(plan: &Plan, options: &SweepOptions) -> Status {
     let (status, table) = rows.end();
     let Some((page, table)) = page.zip(table) else { return status };
     let written = page.write_kept(plan, table.rows.len()).and_then(|kept| {
-        let inputs = Inputs::of(plan, &options.specs);
-        let facts =
-            facts::of_sweep(&plan.design, &inputs, options.until_precision.as_deref(), &options.table);
+        let about = About::of(plan, &options.specs);
+        let facts = facts::of_sweep(&plan.design, &about, options.until_precision.as_deref(), &options.table);
         page.write(&plan.design, facts, table, kept)
     });
     status_of_page(status, written)

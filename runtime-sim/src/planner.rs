@@ -144,7 +144,8 @@ const EFFORTS: [Effort; 2] = [
         ],
     },
 ];
-/// How far the tool is lifted before the torso sets out, and how high it still is when the torso arrives, m.
+/// How far the tool is lifted before the torso sets out, and how high it still is when the torso arrives, m; the least first,
+/// with which no path takes longer.
 const CLEARS: [f64; 4] = [STRAIGHT, 0.4, 0.6, f64::INFINITY];
 /// Pieces of a line by which it is timed, m.
 const LIFT_STEP: f64 = 0.1;
@@ -184,6 +185,7 @@ pub enum Turning {
     Last,
 }
 
+/// The first one takes no longer than the others.
 const TURNINGS: [Turning; 3] = [Turning::Evenly, Turning::First, Turning::Last];
 
 impl Planner {

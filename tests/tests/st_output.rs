@@ -277,3 +277,23 @@ fn transitions_are_short_and_nothing_is_dead() {
     assert!(each.parse::<f64>().expect("a number") <= 15.0, "{figures}");
     assert!(dead.is_empty(), "{}", listed(&dead, main));
 }
+
+/// A point that a robot is given is a global with the names of both.
+#[test]
+fn a_local_may_be_called_like_a_point_of_a_robot() {
+    let read =
+        |path: &str| std::fs::read_to_string(root().join("examples/lathe").join(path)).expect("a text");
+    let specs = vec![read("lathe.aut").replace("failures", "arm_door")];
+    let texts = Texts {
+        layout: read("lathe.json"),
+        specs,
+        scenario: Some(read("lathe.scenario.json")),
+        ..Texts::default()
+    };
+    let outcome = texts.compile();
+    let files = st::files(&outcome.project.expect("a line that is right").system, &outcome.sources);
+    let scl = &files["siemens/main.scl"];
+    assert!(scl.contains("arm_door : \"ST_Point\""), "the point is a global");
+    assert!(scl.contains("#arm_door := #arm_door + 1"), "the local counts");
+    assert!(!scl.contains("\"Line\".arm_door = "), "the point is no number");
+}

@@ -25,15 +25,15 @@ pub fn title(design: &Design) -> String {
 }
 
 /// What a page says of a sweep that its design does not say.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Inputs {
+#[derive(Debug)]
+pub struct About {
     /// Names of files.
     scenarios: Vec<String>,
     types: Vec<String>,
     seed: String,
 }
 
-impl Inputs {
+impl About {
     pub fn of(plan: &Plan, specs: &[PathBuf]) -> Self {
         let types = specs.iter().map(|path| file_name(path)).collect();
         Self { scenarios: scenarios(plan), types, seed: seeds(plan) }
@@ -44,25 +44,29 @@ impl Inputs {
         json!({ "scenarios": self.scenarios, "types": self.types, "seed": self.seed })
     }
 
-    /// Nothing of what is not there.
-    pub fn from_json(json: &Value) -> Self {
-        let text = |json: &Value| json.as_str().unwrap_or_default().to_string();
-        let texts = |json: &Value| json.as_array().into_iter().flatten().map(text).collect();
-        Self { scenarios: texts(&json["scenarios"]), types: texts(&json["types"]), seed: text(&json["seed"]) }
+    /// What [`Self::to_json`] gave; `None` for anything else.
+    pub fn from_json(json: &Value) -> Option<Self> {
+        let text = |json: &Value| json.as_str().map(String::from);
+        let texts = |json: &Value| json.as_array()?.iter().map(text).collect::<Option<_>>();
+        Some(Self {
+            scenarios: texts(&json["scenarios"])?,
+            types: texts(&json["types"])?,
+            seed: text(&json["seed"])?,
+        })
     }
 }
 
 /// `until_precision` is as written.
 pub fn of_sweep(
     design: &Design,
-    inputs: &Inputs,
+    about: &About,
     until_precision: Option<&str>,
     options: &TableOptions,
 ) -> Vec<Fact> {
     let mut facts = Facts::default();
     facts.add("layouts", listed(&design.layouts));
-    facts.add("scenario", listed(&inputs.scenarios));
-    facts.add("types from", listed(&inputs.types));
+    facts.add("scenario", listed(&about.scenarios));
+    facts.add("types from", listed(&about.types));
     let (varied, fixed): (Vec<_>, Vec<_>) = design.axes.iter().partition(|axis| axis.values.len() > 1);
     let set = |axes: Vec<&Axis>| {
         let each: Vec<String> =
@@ -81,7 +85,7 @@ pub fn of_sweep(
         Some(precision) => facts.add("replications", format!("until {precision}, {runs} at most")),
         None => facts.add("replications", runs.to_string()),
     }
-    facts.add("seed", inputs.seed.clone());
+    facts.add("seed", about.seed.clone());
     facts.add("warm-up", design.warm_up.map_or_else(String::new, |warm_up| warm_up.to_string()));
     if options.compare {
         let first = RunNumber { point: 0, replication: 0 };

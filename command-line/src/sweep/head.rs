@@ -1,7 +1,7 @@
 //! The first line of a part's file: which part it is, and of what sweep.
 
 use super::design::Design;
-use super::facts::Inputs;
+use super::facts::About;
 use super::part::Part;
 use super::plan::{Line, Plan};
 use crate::output;
@@ -13,8 +13,8 @@ use std::path::PathBuf;
 /// The key by which such a file is known.
 pub const KEY: &str = "autogen_sweep_part";
 
-/// What a page says of the inputs: names of files may differ from machine to machine, the hashes of their texts may not.
-const ABOUT: &str = "about_inputs";
+/// What a page says beside the design. Names of files may differ from machine to machine, the hashes of their texts may not.
+const ABOUT: &str = "about";
 
 /// What parts of the same sweep have in common, key by key, and what it is called in a message.
 pub const COMMON: [(&str, &str); 9] = [
@@ -33,7 +33,7 @@ pub struct Head {
     pub part: Part,
     pub design: Design,
     /// For a page.
-    pub inputs: Inputs,
+    pub about: About,
     /// As it was read.
     pub json: Map<String, Value>,
 }
@@ -47,7 +47,7 @@ impl Head {
         line.insert("tool".into(), json!(tool()?));
         line.insert("inputs".into(), plan.lines.iter().map(inputs).collect());
         line.extend(plan.design.to_json());
-        line.insert(ABOUT.into(), Inputs::of(plan, specs).to_json());
+        line.insert(ABOUT.into(), About::of(plan, specs).to_json());
         Ok(Value::Object(line).to_string())
     }
 
@@ -57,8 +57,8 @@ impl Head {
         let number = |key: &str| usize::try_from(json.get(key)?.as_u64()?).ok();
         let part = Part::new(number(KEY)?, number("parts")?)?;
         let design = Design::from_json(&Value::Object(json.clone()))?;
-        let inputs = Inputs::from_json(json.get(ABOUT).unwrap_or(&Value::Null));
-        Some(Self { part, design, inputs, json })
+        let about = About::from_json(json.get(ABOUT)?)?;
+        Some(Self { part, design, about, json })
     }
 }
 

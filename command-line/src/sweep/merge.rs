@@ -37,7 +37,7 @@ struct Found<'a> {
 fn merge(options: &MergeOptions) -> Result<Status, Refusal> {
     let parts = parts(&options.parts).map_err(Refusal::Failure)?;
     let Some(first) = parts.first() else { return Ok(Status::Done) };
-    let Head { design, inputs, .. } = &first.head;
+    let Head { design, about, .. } = &first.head;
     let page = Request::new(options.report.as_deref(), None, design).map_err(Refusal::Said)?;
     let mut table = Table::new(design, &options.table)?;
     if page.is_some() {
@@ -65,7 +65,7 @@ fn merge(options: &MergeOptions) -> Result<Status, Refusal> {
     }
     let (status, table) = rows.end();
     let Some((page, table)) = page.zip(table) else { return Ok(status) };
-    let facts = facts::of_sweep(design, inputs, None, &options.table);
+    let facts = facts::of_sweep(design, about, None, &options.table);
     Ok(status_of_page(status, page.write(design, facts, table, BTreeMap::new())))
 }
 

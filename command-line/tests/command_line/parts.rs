@@ -68,21 +68,62 @@ fn parts_make_the_bytes_of_the_whole() {
 #[test]
 fn parts_make_the_page_of_the_whole() {
     let folder = begun("parts_page");
-    let names: Vec<String> = [2, 1].iter().map(|number| part(&folder, *number, 2)).collect();
-    let files: Vec<&str> = names.iter().map(String::as_str).collect();
+    let types = example("lathe/lathe.aut");
+    let specs = ["--specs", &types];
+    let names: Vec<String> = (1..=2)
+        .map(|number| {
+            let output = sweep(&folder, &[&specs[..], &["--part", &format!("{number}/2")]].concat());
+            put(&folder, &format!("{number}.jsonl"), &printed(&output));
+            format!("{number}.jsonl")
+        })
+        .collect();
+    let files: Vec<&str> = names.iter().rev().map(String::as_str).collect();
     let page = |name: &str| fs::read_to_string(folder.join(name)).expect("a page");
-    let whole = sweep(&folder, &["--compare", "--report", "whole.html"]);
+    let whole = sweep(&folder, &[&specs[..], &["--compare", "--report", "whole.html"]].concat());
     let merged = merge(&folder, &files, &["--compare", "--report", "merged.html"]);
     assert_eq!((status(&whole), status(&merged)), (3, 3), "{}", errors(&merged));
     assert!(whole.stdout == merged.stdout);
-    assert!(page("whole.html").contains("short.json"), "its scenario is named");
-    assert!(page("whole.html") == page("merged.html"));
+    let whole = page("whole.html");
+    assert!(["short.json", "lathe.aut"].iter().all(|name| whole.contains(name)));
+    assert!(whole == page("merged.html"));
     // A file that is no page stays, and is told before anything is printed.
     put(&folder, "notes.html", "by hand");
     let refused = merge(&folder, &files, &["--report", "notes.html"]);
     assert_eq!((status(&refused), printed(&refused)), (2, String::new()));
     assert!(errors(&refused).contains("notes.html"), "{}", errors(&refused));
     assert_eq!(page("notes.html"), "by hand");
+    // A part that does not say of what is none; what it says is text.
+    let text = page("1.jsonl");
+    let (head, rest) = text.split_once('\n').expect("two lines");
+    let mut head: Value = serde_json::from_str(head).expect("an object");
+    head["about"]["seed"] = "</script><b>seed</b>".into();
+    put(&folder, "1.jsonl", &format!("{head}\n{rest}"));
+    assert_eq!(status(&merge(&folder, &files, &["--report", "hostile.html"])), 3);
+    assert!(page("hostile.html").contains("seed") && !page("hostile.html").contains("<b>seed"));
+    for wrong in
+        [Value::Null, "short.json".into(), serde_json::json!({"scenarios": [1], "types": [], "seed": ""})]
+    {
+        head["about"] = wrong;
+        put(&folder, "1.jsonl", &format!("{head}\n{rest}"));
+        let output = merge(&folder, &files, &[]);
+        assert_eq!(status(&output), 1, "{head}");
+        assert!(errors(&output).contains("E0801"), "{}", errors(&output));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn the_page_of_parts_is_written_where_nobody_reads_the_table() {
+    let folder = begun("parts_no_reader");
+    let name = part(&folder, 1, 1);
+    let merge =
+        format!("'{}' merge {name} --report page.html; echo $? > status", env!("CARGO_BIN_EXE_autogen"));
+    let mut shell = std::process::Command::new("sh");
+    let output =
+        shell.args(["-c", &format!("({merge}) | true")]).current_dir(&folder).output().expect("a shell");
+    assert_eq!(errors(&output), "");
+    assert_eq!(fs::read_to_string(folder.join("status")).expect("a file"), "3\n");
+    assert!(folder.join("page.html").exists());
 }
 
 #[test]

@@ -26,8 +26,8 @@ impl BoundingBox {
     #[inline]
     pub fn with(&self, other: &BoundingBox) -> Self {
         Self {
-            low: by_coordinate(self.low, other.low, lesser),
-            high: by_coordinate(self.high, other.high, greater),
+            low: by_coordinate(other.low, self.low, lesser),
+            high: by_coordinate(other.high, self.high, greater),
         }
     }
 
@@ -50,8 +50,8 @@ impl BoundingBox {
     /// What is in both, of two that are not apart.
     pub fn common(&self, other: &BoundingBox) -> Self {
         Self {
-            low: by_coordinate(self.low, other.low, greater),
-            high: by_coordinate(self.high, other.high, lesser),
+            low: by_coordinate(other.low, self.low, greater),
+            high: by_coordinate(other.high, self.high, lesser),
         }
     }
 

@@ -317,6 +317,11 @@ impl Group {
     /// it is no arm that moves.
     pub fn sections(&self, places: [f64; 3]) -> Option<[usize; 3]> {
         let Movement::Swings { motion, .. } = &self.movement else { return None };
+        self.sections_of(motion, places)
+    }
+
+    /// The same on the path of this motion.
+    fn sections_of(&self, motion: &Motion, places: [f64; 3]) -> Option<[usize; 3]> {
         let body = self.bodies.iter().flatten().find(|body| body.radii.is_some())?;
         Some(places.map(|place| body.travel(motion).section(place)))
     }

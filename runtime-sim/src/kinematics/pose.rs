@@ -161,6 +161,8 @@ mod tests {
             let again = Pose::turned(at, yaw).then(&about_y(pitch)).then(&about_x(roll));
             assert_same(&again, &pose);
             let other = Pose::turned(Point::new(angle(), angle(), angle()), angle()).then(&about_x(angle()));
+            let seen = pose.seen(pose.point(at)) - at;
+            assert!(seen.length() < 1e-12, "{seen:?}");
             assert_same(&other.then(&pose.seen_from(&other)), &pose);
         }
     }

@@ -131,7 +131,7 @@ impl Standing<'_> {
     pub fn gap(&self, near: &Nearby, load: Load, [needed, enough]: [f64; 2]) -> f64 {
         let mut least = enough;
         for pair in self.links.pairs(load) {
-            least = lesser(least, self.distance(pair, near, least));
+            least = lesser(self.distance(pair, near, least), least);
             if least < needed {
                 break;
             }
@@ -157,9 +157,9 @@ impl Standing<'_> {
         self.pieces(other).fold(f64::INFINITY, |least, located| {
             let enough = lesser(enough, least);
             if member.apart(frame, &located.ball()) >= enough {
-                return lesser(least, enough);
+                return lesser(enough, least);
             }
-            lesser(least, self.gap_of_member(pair.member, located.placed(), enough))
+            lesser(self.gap_of_member(pair.member, located.placed(), enough), least)
         })
     }
 
@@ -174,7 +174,7 @@ impl Standing<'_> {
         self.pieces(member).fold(f64::INFINITY, |least, located| {
             let enough = lesser(enough, least);
             let is_apart = located.ball().is_apart_by(&other.ball, enough);
-            lesser(least, if is_apart { enough } else { gap(located.placed(), other, enough) })
+            lesser(if is_apart { enough } else { gap(located.placed(), other, enough) }, least)
         })
     }
 
@@ -189,7 +189,7 @@ impl Standing<'_> {
             let enough_here = lesser(enough, least);
             let needed = enough_here + ball.radius;
             if square > needed * needed * (1.0 + ROUNDED) || square.sqrt() - ball.radius >= enough_here {
-                far_square = lesser(far_square, square);
+                far_square = lesser(square, far_square);
                 continue;
             }
             for other in &cluster.all {
@@ -211,9 +211,9 @@ impl Standing<'_> {
             let enough = lesser(enough, least);
             let apart = other.apart(&located.ball());
             if apart >= enough {
-                return lesser(least, apart);
+                return lesser(apart, least);
             }
-            lesser(least, gap(located.placed(), &other.placed, enough))
+            lesser(gap(located.placed(), &other.placed, enough), least)
         })
     }
 

@@ -9,6 +9,11 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::sync::Arc;
 
+/// Choices of a trip; none takes less time than the first one.
+const MOTIONS: usize = TURNINGS.len() * CLEARS.len();
+/// What is rounded in a time, as a part of it.
+const ROUNDED: f64 = 1e-12;
+
 /// One of the paths on a trip: by numbers of the candidate and of the rise.
 #[derive(Clone, Copy)]
 pub struct Choice {
@@ -18,7 +23,7 @@ pub struct Choice {
     clear: f64,
 }
 
-/// What a time in the queue is known of, by its number.
+/// What stands in the queue: the number of a trip, or of a choice among those of all trips.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Timed {
     /// No choice of the trip takes less, as if its torso could go straight.
@@ -57,11 +62,6 @@ pub struct Options<'a> {
     /// By candidate and rise. Those that are as far beyond the shoulder have the same: the turn of the torso does not matter.
     last_lifts: Vec<Vec<Option<Arc<Lift>>>>,
 }
-
-/// When tool and torso can move on a trip, in so many manners; none takes less than the first one.
-const MOTIONS: usize = TURNINGS.len() * CLEARS.len();
-/// What is rounded in a time, as a part of it.
-const ROUNDED: f64 = 1e-12;
 
 impl Trip {
     /// By its number below [`MOTIONS`].
@@ -171,7 +171,7 @@ impl<'a> Options<'a> {
     }
 
     fn timing(&self, choice: &Choice, length: f64) -> Option<Timing> {
-        let Choice { candidate, rise, turning, clear, .. } = *choice;
+        let Choice { candidate, rise, turning, clear } = *choice;
         let stance = &self.candidates[candidate].stance;
         let lifts = [self.first_lifts[rise].as_ref()?, self.last_lifts[candidate][rise].as_ref()?];
         Some(Timing::new(length, [self.first, stance], lifts, clear, turning, self.task.limits))

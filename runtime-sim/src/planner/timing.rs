@@ -156,3 +156,39 @@ impl Timing {
         Trapezoid { begin, duration, ramp: 0.5 }.at(time)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{CLEARS, TURNINGS};
+    use super::*;
+    use crate::kinematics::arm::{Joints, MOST_JOINTS};
+    use crate::kinematics::gantry::Wrist;
+    use crate::kinematics::random::Random;
+
+    #[test]
+    fn no_path_of_a_trip_takes_less_than_the_first() {
+        let mut random = Random::new(3);
+        for _ in 0..1000 {
+            let mut drawn = |low: f64, high: f64| random.between(low, high);
+            let limits = [0.5, 2.0].map(|most| Joints::new(&[drawn(0.1, most); MOST_JOINTS]));
+            let limits = Limits { velocity: limits[0], acceleration: limits[1] };
+            let mut stance =
+                || Stance { turn: drawn(-3.0, 3.0), beyond: drawn(0.0, 0.6), wrist: Wrist::Inside };
+            let stances = [stance(), stance()];
+            let mut lift = || {
+                let (end, speed) = (drawn(0.0, 5.0), drawn(0.05, 0.5));
+                Arc::new(Lift::new(end, |time| speed * time))
+            };
+            let (lifts, length) = ([lift(), lift()], drawn(0.0, 8.0));
+            let end = |turning: Turning, clear: f64| {
+                let [first, last] = &stances;
+                let [rise, fall] = &lifts;
+                Timing::new(length, [first, last], [rise, fall], clear, turning, &limits).end
+            };
+            let first = end(TURNINGS[0], CLEARS[0]);
+            for (turning, clear) in TURNINGS.iter().flat_map(|t| CLEARS.map(|clear| (*t, clear))) {
+                assert!(first * (1.0 - 1e-12) <= end(turning, clear), "{length} {clear}");
+            }
+        }
+    }
+}

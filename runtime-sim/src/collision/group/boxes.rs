@@ -213,7 +213,7 @@ impl Group {
                 let middle = (2 * (piece * PLACES + place) + 1) as f64 * half;
                 let frames = arm.frames(&motion.along(middle));
                 let places = [middle - half, middle, middle + half];
-                let sections = self.sections(places);
+                let sections = self.sections_of(motion, places);
                 for (all, body) in bodies.iter_mut().zip(&self.bodies) {
                     if let Some(body) = body {
                         let reach = sections
