@@ -31,10 +31,11 @@ use super::options::{Format, SweepOptions, TableFormat, TableOptions};
 use super::print;
 use crate::Status;
 use autogen::diagnostic::Diagnostic;
-use design::RunNumber;
+use design::{Design, RunNumber};
 use facts::About;
 use head::Head;
 use outcome::Outcome;
+use page::Request;
 use part::{MOST_PARTS, Part};
 use plan::{Plan, Refusal};
 use progress::Progress;
@@ -78,17 +79,13 @@ fn part(text: &str) -> Result<Part, Refusal> {
 
 /// All runs, as rows of a table.
 fn whole(plan: &Plan, options: &SweepOptions) -> Status {
-    let page = page::Request::new(options.report.as_deref(), options.keep.as_deref(), &plan.design);
+    let page = Request::new(options.report.as_deref(), options.keep.as_deref(), &plan.design);
     let page = match page {
         Ok(page) => page,
         Err(text) => return not_planned(&options.table, &Refusal::Said(text)),
     };
-    if page.is_some() {
-        print::go_on_without_reader();
-    }
-    let mut rows = match Table::new(&plan.design, &options.table) {
-        Ok(table) if page.is_some() => Rows::new(&plan.design, table.keeping()),
-        Ok(table) => Rows::new(&plan.design, table),
+    let mut rows = match shown(&plan.design, &options.table, page.as_ref()) {
+        Ok(rows) => rows,
         Err(refusal) => return not_planned(&options.table, &refusal),
     };
     // Points of which all runs are known: a precision may be reached before the last replication.
@@ -119,6 +116,20 @@ fn whole(plan: &Plan, options: &SweepOptions) -> Status {
         page.write(&plan.design, facts, table, kept)
     });
     status_of_page(status, written)
+}
+
+/// The rows of a table. Where there is a page they are kept for it, and nobody has to read the table.
+fn shown<'a>(
+    design: &'a Design,
+    options: &'a TableOptions,
+    page: Option<&Request>,
+) -> Result<Rows<'a>, Refusal> {
+    let table = Table::new(design, options)?;
+    if page.is_none() {
+        return Ok(Rows::new(design, table));
+    }
+    print::go_on_without_reader();
+    Ok(Rows::new(design, table.keeping()))
 }
 
 /// What the runs came to, unless their page could not be written.

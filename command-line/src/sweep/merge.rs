@@ -11,9 +11,7 @@ use super::page::Request;
 use super::part::Part;
 use super::part_file::{Line, PartFile, outcome};
 use super::plan::Refusal;
-use super::rows::Rows;
-use super::table::Table;
-use super::{facts, format, not_planned, status_of_page};
+use super::{facts, format, not_planned, shown, status_of_page};
 use crate::Status;
 use autogen::diagnostic::{Diagnostic, collect};
 use autogen::source::{Sources, Span};
@@ -39,12 +37,7 @@ fn merge(options: &MergeOptions) -> Result<Status, Refusal> {
     let Some(first) = parts.first() else { return Ok(Status::Done) };
     let Head { design, about, .. } = &first.head;
     let page = Request::new(options.report.as_deref(), None, design).map_err(Refusal::Said)?;
-    let mut table = Table::new(design, &options.table)?;
-    if page.is_some() {
-        print::go_on_without_reader();
-        table = table.keeping();
-    }
-    let mut rows = Rows::new(design, table);
+    let mut rows = shown(design, &options.table, page.as_ref())?;
     let mut files = Vec::new();
     for part in &parts {
         let mut file = PartFile::open(part.path).map_err(Refusal::Failure)?;

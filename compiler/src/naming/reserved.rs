@@ -54,8 +54,8 @@ const MACROS_OF_C: &str = include_str!("macros_of_c.txt");
 
 /// What matiec finds inside of words too: it looks for the end of a unit before it knows words, and for the
 /// first step of a chart at the beginning of a body.
-const FOUND_INSIDE: [&str; 5] =
-    ["end_program", "end_function", "end_configuration", "end_action", "end_transition"];
+const END: &str = "end_";
+const ENDED: [&str; 5] = ["program", "function", "configuration", "action", "transition"];
 const FOUND_IN_FRONT: &str = "initial_step";
 
 /// Whether a compiler refuses the whole word.
@@ -77,10 +77,10 @@ pub fn is_reserved(name: &str) -> bool {
 /// Where matiec would take a part of a name for a keyword: the place of the underscore within that keyword.
 pub fn keyword_inside(name: &str) -> Option<usize> {
     let name = name.to_ascii_lowercase();
-    let begins = name.match_indices("end_").map(|(at, _)| at);
-    let inside = begins
-        .filter_map(|at| Some((at, *FOUND_INSIDE.iter().find(|keyword| name[at..].starts_with(**keyword))?)));
-    let in_front = name.starts_with(FOUND_IN_FRONT).then_some((0, FOUND_IN_FRONT));
-    let (at, keyword) = inside.chain(in_front).min()?;
-    Some(at + keyword.find('_')?)
+    if name.starts_with(FOUND_IN_FRONT) {
+        return FOUND_IN_FRONT.find('_');
+    }
+    let ends = name.match_indices(END).map(|(at, _)| at + END.len());
+    let mut ends = ends.filter(|end| ENDED.iter().any(|unit| name[*end..].starts_with(unit)));
+    ends.next().map(|end| end - 1)
 }

@@ -122,13 +122,6 @@ impl Frames {
         }
         frames
     }
-
-    #[inline]
-    pub(super) fn new(poses: &[Pose]) -> Self {
-        let mut frames = Self { poses: [Pose::IDENTITY; MOST_JOINTS], count: poses.len() };
-        frames.poses[..poses.len()].copy_from_slice(poses);
-        frames
-    }
 }
 
 impl Deref for Frames {

@@ -146,7 +146,7 @@ impl Solver for Cartesian {
     }
 
     fn frames(&self, joints: &Joints) -> Frames {
-        Frames::new(&Cartesian::frames(self, joints))
+        Frames::of(Cartesian::frames(self, joints).into_iter())
     }
 
     fn links(&self) -> Vec<Link> {

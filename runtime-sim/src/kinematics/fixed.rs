@@ -365,7 +365,7 @@ impl Solver for FixedArm {
     }
 
     fn frames(&self, joints: &Joints) -> Frames {
-        Frames::new(&FixedArm::frames(self, &joints.array()))
+        Frames::of(FixedArm::frames(self, &joints.array()).into_iter())
     }
 
     fn links(&self) -> Vec<Link> {

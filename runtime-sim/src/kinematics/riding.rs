@@ -171,7 +171,7 @@ impl Solver for RidingArm {
     }
 
     fn frames(&self, joints: &arm::Joints) -> Frames {
-        Frames::new(&RidingArm::frames(self, &joints.array()))
+        Frames::of(RidingArm::frames(self, &joints.array()).into_iter())
     }
 
     fn links(&self) -> Vec<Link> {

@@ -239,7 +239,7 @@ impl Solver for Scara {
     }
 
     fn frames(&self, joints: &arm::Joints) -> Frames {
-        Frames::new(&Scara::frames(self, &joints.array()))
+        Frames::of(Scara::frames(self, &joints.array()).into_iter())
     }
 
     fn links(&self) -> Vec<Link> {
