@@ -3,6 +3,7 @@
 use crate::account::{Account, Activity};
 use crate::line::Line;
 
+#[derive(Clone)]
 pub struct Accounts<'a> {
     line: &'a Line,
     accounts: Vec<Account>,

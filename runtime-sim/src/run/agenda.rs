@@ -7,10 +7,10 @@ use crate::plant::{Arrived, Plant};
 use crate::scan::{SystemInputs, SystemOutputs};
 use std::cell::OnceCell;
 
-/// What the controllers wait for since the last scan in which they were stepped. A scan in which none of this happens
-/// does nothing but let times in states continue.
-pub struct Agenda<'a> {
-    line: &'a Line,
+/// What controllers were given and gave when they were stepped last, and what has come since. A scan in which nothing
+/// happens that they wait for does nothing but let times in states continue.
+#[derive(Clone)]
+pub struct Agenda {
     /// Where in the trace the time in its state stands, by machine.
     stays: Vec<usize>,
     /// The last scan in which the controllers were stepped, and what they were given and gave in it.
@@ -20,10 +20,16 @@ pub struct Agenda<'a> {
     /// The inputs may be others by now.
     has_arrived: bool,
     analogue: Vec<Vec<bool>>,
+}
+
+/// What the controllers of a line wait for.
+pub struct Waits<'a> {
+    line: &'a Line,
     /// Since the last step; none until somebody asks.
     awaited: OnceCell<Awaited>,
 }
 
+#[derive(Clone)]
 struct Stepped {
     scan: u64,
     system: SystemInputs,
@@ -43,18 +49,21 @@ struct Awaited {
     places: Vec<usize>,
 }
 
-impl<'a> Agenda<'a> {
+impl<'a> Waits<'a> {
+    pub fn new(line: &'a Line) -> Self {
+        Self { line, awaited: OnceCell::new() }
+    }
+
+    /// The controllers were stepped: they may wait for something else.
+    pub fn step(&mut self) {
+        self.awaited = OnceCell::new();
+    }
+}
+
+impl Agenda {
     /// `analogue` says which words of the inputs change while a machine moves.
-    pub fn new(line: &'a Line, stays: Vec<usize>, inputs: &[Vec<f64>], analogue: Vec<Vec<bool>>) -> Self {
-        Self {
-            line,
-            stays,
-            last: None,
-            latched: inputs.to_vec(),
-            has_arrived: false,
-            analogue,
-            awaited: OnceCell::new(),
-        }
+    pub fn new(stays: Vec<usize>, inputs: &[Vec<f64>], analogue: Vec<Vec<bool>>) -> Self {
+        Self { stays, last: None, latched: inputs.to_vec(), has_arrived: false, analogue }
     }
 
     /// What has become of the inputs.
@@ -72,9 +81,10 @@ impl<'a> Agenda<'a> {
         self.last.as_ref().map_or(1, |last| scan - last.scan)
     }
 
-    /// Whether the controllers have to be stepped in this scan.
+    /// Whether controllers that wait for this have to be stepped in this scan.
     pub fn is_due(
         &self,
+        waits: &Waits,
         scan: u64,
         system: SystemInputs,
         inputs: &[Vec<f64>],
@@ -86,17 +96,25 @@ impl<'a> Agenda<'a> {
             return true;
         }
         if last.running {
-            let awaited = self.awaited(last, states, changes);
+            let awaited = self.awaited(waits, last, states, changes);
             if awaited.anything || awaited.timers.is_some_and(|[first, _]| first <= scan) {
                 return true;
             }
         }
         let machines = 0..self.latched.len();
-        self.has_arrived && machines.into_iter().any(|machine| self.has_news(machine, last, inputs, states))
+        self.has_arrived
+            && machines.into_iter().any(|machine| self.has_news(waits, machine, last, inputs, states))
     }
 
     /// Whether an input of a machine that it reads is another one than it latched.
-    fn has_news(&self, machine: usize, last: &Stepped, inputs: &[Vec<f64>], states: &[usize]) -> bool {
+    fn has_news(
+        &self,
+        waits: &Waits,
+        machine: usize,
+        last: &Stepped,
+        inputs: &[Vec<f64>],
+        states: &[usize],
+    ) -> bool {
         let (latched, inputs) = (&self.latched[machine], &inputs[machine]);
         if are_same(latched, inputs) {
             return false;
@@ -107,7 +125,7 @@ impl<'a> Agenda<'a> {
         }
         let differs =
             |word: &usize| latched.get(*word).map(|w| w.to_bits()) != inputs.get(*word).map(|w| w.to_bits());
-        let description = &self.line.machines[machine];
+        let description = &waits.line.machines[machine];
         if description.monitor.panel.iter().any(differs) {
             return true;
         }
@@ -132,12 +150,18 @@ impl<'a> Agenda<'a> {
             latched.copy_from_slice(input);
         }
         self.has_arrived = false;
-        self.awaited = OnceCell::new();
     }
 
     /// The first scan after this one in which the controllers may have to be stepped, if no device changes anything.
     /// None: never.
-    pub fn next_step(&self, scan: u64, states: &[usize], changes: &Changes, plant: &Plant) -> Option<u64> {
+    pub fn next_step(
+        &self,
+        waits: &Waits,
+        scan: u64,
+        states: &[usize],
+        changes: &Changes,
+        plant: &Plant,
+    ) -> Option<u64> {
         let Some(last) = &self.last else { return Some(scan + 1) };
         if last.acted && last.scan == scan {
             return Some(scan + 1);
@@ -145,7 +169,7 @@ impl<'a> Agenda<'a> {
         if !last.running {
             return None;
         }
-        let awaited = self.awaited(last, states, changes);
+        let awaited = self.awaited(waits, last, states, changes);
         if awaited.anything || awaited.places.iter().any(|machine| plant.moves(*machine)) {
             return Some(scan + 1);
         }
@@ -153,16 +177,22 @@ impl<'a> Agenda<'a> {
     }
 
     /// Whether a timer of a machine is running, which ends after this scan: of its present state, or of a property.
-    pub fn is_timed(&self, scan: u64, states: &[usize], changes: &Changes) -> bool {
+    pub fn is_timed(&self, waits: &Waits, scan: u64, states: &[usize], changes: &Changes) -> bool {
         let Some(last) = self.last.as_ref().filter(|last| last.running) else { return false };
-        self.awaited(last, states, changes).timers.is_some_and(|[_, end]| end > scan)
+        self.awaited(waits, last, states, changes).timers.is_some_and(|[_, end]| end > scan)
     }
 
-    fn awaited(&self, last: &Stepped, states: &[usize], changes: &Changes) -> &Awaited {
-        self.awaited.get_or_init(|| {
+    fn awaited<'a>(
+        &self,
+        waits: &'a Waits,
+        last: &Stepped,
+        states: &[usize],
+        changes: &Changes,
+    ) -> &'a Awaited {
+        waits.awaited.get_or_init(|| {
             let mut awaited = Awaited::default();
             for (machine, state) in states.iter().enumerate() {
-                self.await_machine(&mut awaited, last, (machine, *state), changes);
+                self.await_machine(&mut awaited, waits.line, last, (machine, *state), changes);
             }
             awaited
         })
@@ -172,11 +202,12 @@ impl<'a> Agenda<'a> {
     fn await_machine(
         &self,
         awaited: &mut Awaited,
+        line: &Line,
         last: &Stepped,
         (machine, state): (usize, usize),
         changes: &Changes,
     ) {
-        let description = &self.line.machines[machine];
+        let description = &line.machines[machine];
         let state = description.states.get(state);
         if state.is_some_and(|state| self.reads_places(machine, state)) {
             awaited.places.push(machine);
@@ -189,7 +220,7 @@ impl<'a> Agenda<'a> {
         let counters = &description.monitor.counters;
         awaited.anything |=
             timers.is_none() || counters.iter().any(|it| it.limit.is_none() && changes.stay(it.word) >= 0.0);
-        for ends in self.timer_ends(last, machine, timers.unwrap_or_default(), changes) {
+        for ends in self.timer_ends(line, last, machine, timers.unwrap_or_default(), changes) {
             let [earliest, latest] = awaited.timers.unwrap_or([ends; 2]);
             awaited.timers = Some([earliest.min(ends), latest.max(ends)]);
         }
@@ -206,6 +237,7 @@ impl<'a> Agenda<'a> {
     /// The scans in which timers of a machine end that had not ended in the last step.
     fn timer_ends(
         &self,
+        line: &Line,
         last: &Stepped,
         machine: usize,
         timers: &[u32],
@@ -213,11 +245,11 @@ impl<'a> Agenda<'a> {
     ) -> impl Iterator<Item = u64> {
         let stay = self.stays.get(machine).map_or(0.0, |word| changes.stay(*word));
         let of_state = timers.iter().map(move |timer| f64::from(*timer) - stay);
-        let of_properties = self.line.machines[machine].monitor.counters.iter().filter_map(|counter| {
+        let of_properties = line.machines[machine].monitor.counters.iter().filter_map(|counter| {
             let waited = changes.stay(counter.word);
             counter.limit.filter(|_| waited >= 0.0).map(|limit| f64::from(limit) - waited)
         });
-        let [scan, scan_ms] = [last.scan, u64::from(self.line.scan_ms)];
+        let [scan, scan_ms] = [last.scan, u64::from(line.scan_ms)];
         let left = of_state.chain(of_properties).filter(|left| *left > 0.0);
         left.map(move |left| scan + (left / scan_ms as f64).ceil() as u64)
     }

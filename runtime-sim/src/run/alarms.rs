@@ -4,6 +4,7 @@ use crate::line::Line;
 use crate::monitor::ALARM_WORDS;
 use crate::report::{self, AlarmReport};
 
+#[derive(Clone)]
 pub struct Alarms<'a> {
     line: &'a Line,
     /// The scan in which the controllers had their power again last. They count theirs from there.

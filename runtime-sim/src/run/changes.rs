@@ -7,7 +7,7 @@ use crate::machine::Machine;
 
 /// The last trace and the last outputs, and a hash of all changes with their scans. Times in states, and those for which
 /// properties wait, are no part of it, so a scan in which nothing happens does not change it.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Changes {
     hash: Hash,
     words: Vec<f64>,

@@ -4,12 +4,14 @@ use crate::line::{Line, Scenario};
 use crate::report::{FaultReport, seconds};
 use crate::scan::SystemOutputs;
 
+#[derive(Clone)]
 pub struct Faults<'a> {
     line: &'a Line,
     all: Vec<Fault>,
 }
 
 /// A fault of a machine, the state in which that machine was, and the scans in which it came and was cleared.
+#[derive(Clone)]
 struct Fault {
     code: i32,
     machine: Option<usize>,

@@ -7,6 +7,7 @@ use crate::wiring::Drives;
 
 /// The outputs of controllers without power: all levels are off, but grippers keep what they hold. Commands stay as they
 /// are, held.
+#[derive(Clone)]
 pub struct Unpowered {
     /// Words of levels that are off, by machine.
     off: Vec<Vec<usize>>,

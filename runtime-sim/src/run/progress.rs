@@ -6,6 +6,7 @@ use crate::line::{Collected, Goal, Line};
 use crate::plant::Plant;
 use crate::shortage::shortage;
 
+#[derive(Clone)]
 pub struct Progress {
     made: usize,
     /// Of each sink that has a goal, items of each kind.
