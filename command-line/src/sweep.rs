@@ -24,6 +24,7 @@ mod precision;
 mod progress;
 mod rows;
 mod table;
+mod together;
 mod warm_up;
 
 use super::controllers::Notice;
@@ -46,6 +47,7 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use table::Table;
+use together::Together;
 
 pub fn run(options: &SweepOptions) -> Status {
     match plan(options) {
@@ -99,14 +101,21 @@ fn whole(plan: &Plan, options: &SweepOptions) -> Status {
     });
     let is_text = options.table.format == TableFormat::Text;
     let mut progress = Progress::new(plan.runs, options.table.quiet);
-    each_run(plan, options, is_text, indices, |number, outcome| {
-        progress.clear();
-        // Of a point that is closed, runs may have begun that it does not need.
-        if number.point == closed.load(Ordering::Relaxed) && rows.take(number, outcome) {
-            closed.store(number.point + 1, Ordering::Relaxed);
-        }
-        progress.count();
-    });
+    each_run(
+        plan,
+        options,
+        is_text,
+        indices,
+        |_| true,
+        |number, outcome, made| {
+            progress.clear();
+            // Of a point that is closed, runs may have begun that it does not need.
+            if number.point == closed.load(Ordering::Relaxed) && rows.take(number, outcome) {
+                closed.store(number.point + 1, Ordering::Relaxed);
+            }
+            progress.show(made);
+        },
+    );
     progress.clear();
     let (status, table) = rows.end();
     let Some((page, table)) = page.zip(table) else { return status };
@@ -151,31 +160,35 @@ fn of_part(plan: &Plan, part: Part, options: &SweepOptions) -> Status {
     }
     let mut status = Status::Done;
     let mut progress = Progress::new(part.runs(plan.runs).count(), options.table.quiet);
-    each_run(plan, options, false, part.runs(plan.runs), |number, outcome| {
+    let is_asked = |index| part.has(index);
+    each_run(plan, options, false, part.runs(plan.runs), is_asked, |number, outcome, made| {
         status = rows::worse(status, outcome.status);
         progress.clear();
         say!("{}", Value::Object(outcome.to_line(&plan.design, number)));
-        progress.count();
+        progress.show(made);
     });
     progress.clear();
     status
 }
 
-/// Runs with these indices, on all processors; `take` sees what came of them in their order.
+/// Runs with these indices, on all processors; `take` sees what came of them in their order, and how many have been made by
+/// then. `is_asked` says which runs will be among them.
 fn each_run(
     plan: &Plan,
     options: &SweepOptions,
     is_told: bool,
     indices: impl Iterator<Item = usize> + Send,
-    mut take: impl FnMut(RunNumber, Outcome),
+    is_asked: impl Fn(usize) -> bool + Sync,
+    mut take: impl FnMut(RunNumber, Outcome, usize),
 ) {
     let jobs = options.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
     let notice = if is_told && !options.table.quiet { Notice::Compiling } else { Notice::None };
+    let together = Together::new(plan);
     let job = |index| {
         let number = plan.design.run(index);
-        (number, point::outcome(plan, number, notice))
+        (number, together.outcome(number, &is_asked, notice))
     };
-    in_order::each(indices, jobs, job, |(number, outcome)| take(number, outcome));
+    in_order::each(indices, jobs, job, |(number, outcome)| take(number, outcome, together.made()));
 }
 
 fn not_planned(options: &TableOptions, refusal: &Refusal) -> Status {

@@ -83,6 +83,14 @@ pub struct State {
     pub timers: Option<Vec<u32>>,
 }
 
+impl State {
+    /// Whether reports say the same of both.
+    pub fn has_name_of(&self, other: &Self) -> bool {
+        let Self { name, working, awaits, reads: _, reads_while: _, timers: _ } = self;
+        (name, working, awaits) == (&other.name, &other.working, &other.awaits)
+    }
+}
+
 /// A word of the inputs that guards read only while bits of the inputs are as said: these stand before it in the guard,
 /// and the rest of a guard that has already failed is not evaluated.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -293,6 +301,17 @@ impl Line {
     pub fn is_drawn(&self) -> bool {
         matches!(self.io_delay, IoDelay::Random { max, .. } if max > 0)
             || self.machines.iter().flat_map(Machine::processes).any(|(_, process)| process.is_drawn())
+    }
+
+    /// Whether the same controllers do the same on both: they differ at most in what controllers wait for, by which a run
+    /// leaves scans out.
+    pub fn has_plant_of(&self, other: &Self) -> bool {
+        let Self { scan_ms, kinds, machines, obstacles, may_touch, scenario, io_delay } = self;
+        let machines = machines.iter().zip(&other.machines);
+        self.machines.len() == other.machines.len()
+            && machines.into_iter().all(|(machine, other)| machine.is_machine_of(other))
+            && (scan_ms, kinds, obstacles) == (&other.scan_ms, &other.kinds, &other.obstacles)
+            && (may_touch, scenario, io_delay) == (&other.may_touch, &other.scenario, &other.io_delay)
     }
 
     /// Whether contact of these two, machines or obstacles, is no reason to end a run.

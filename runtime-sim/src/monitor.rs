@@ -30,6 +30,14 @@ pub struct Alarm {
 pub const ALARM_WORDS: usize = 5;
 
 impl Monitor {
+    /// Whether the same words say the same; limits of times may differ.
+    pub fn has_words_of(&self, other: &Self) -> bool {
+        let Self { stopped, counters, alarms, panel } = self;
+        let words = |counters: &[Counter]| counters.iter().map(|counter| counter.word).collect::<Vec<_>>();
+        (stopped, alarms, panel) == (&other.stopped, &other.alarms, &other.panel)
+            && words(counters) == words(&other.counters)
+    }
+
     pub fn is_stopped(&self, trace: &[f64]) -> bool {
         self.stopped.and_then(|word| trace.get(word)).is_some_and(|stopped| *stopped != 0.0)
     }

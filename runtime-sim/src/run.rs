@@ -3,6 +3,7 @@
 mod accounts;
 mod agenda;
 mod alarms;
+mod branch;
 mod changes;
 mod faults;
 mod order_times;
@@ -20,10 +21,9 @@ use crate::path::Path;
 use crate::plant::Plant;
 use crate::report::Report;
 use crate::scan::{Controllers, SystemInputs, SystemOutputs};
+use branch::Branch;
 pub(crate) use order_times::OrderTimes;
 use recorders::Recorders;
-use simulation::Simulation;
-use variant::Variant;
 
 /// What an observer is shown of a scan, once its outputs are published.
 pub struct Seen<'a> {
@@ -112,6 +112,26 @@ pub fn record_again(
     Ok(Recorded { report, paths, history })
 }
 
+/// The runs of a line and of others that have its plant ([`Line::has_plant_of`]), each as [`run_again`] makes it. As long
+/// as their controllers do the same, scan by scan, they are one run. The reports are in the order of the lines.
+pub fn run_together<'a>(
+    line: &'a Line,
+    controllers: &'a mut dyn Controllers,
+    others: Vec<(&'a Line, &'a mut dyn Controllers)>,
+    memory: &mut Memory,
+) -> Result<Vec<Report>, String> {
+    let mut reports = vec![None; 1 + others.len()];
+    let mut branches = vec![Branch::new(line, controllers, others, Stepping::Events, memory)?];
+    while let Some(mut branch) = branches.pop() {
+        let end = branch.run(memory, &mut |_| {}, None, &mut branches)?;
+        let numbers = branch.numbers();
+        let (report, _) = branch.report(end);
+        numbers.into_iter().for_each(|number| reports[number] = Some(report.clone()));
+    }
+    // Each variant is in one branch.
+    Ok(reports.into_iter().flatten().collect())
+}
+
 /// The report, and the plant at the end.
 fn simulate(
     line: &Line,
@@ -119,17 +139,9 @@ fn simulate(
     stepping: Stepping,
     memory: &mut Memory,
     observer: &mut dyn FnMut(&Seen),
-    mut recorders: Option<&mut Recorders>,
+    recorders: Option<&mut Recorders>,
 ) -> Result<(Report, Plant), String> {
-    let mut simulation = Simulation::new(line, controllers, stepping, memory)?;
-    let mut variant = Variant::new(line, controllers);
-    let end = loop {
-        let mut begun = simulation.begin(&mut variant)?;
-        simulation.take(&mut begun, &variant)?;
-        let recorders = recorders.as_deref_mut();
-        if let Some(end) = simulation.proceed(begun, &variant, memory, observer, recorders)? {
-            break end;
-        }
-    };
-    Ok(simulation.report(end, &mut variant))
+    let mut branch = Branch::new(line, controllers, Vec::new(), stepping, memory)?;
+    let end = branch.run(memory, observer, recorders, &mut Vec::new())?;
+    Ok(branch.report(end))
 }

@@ -66,6 +66,7 @@ mod structured_text;
 mod sweep_page;
 mod table1;
 mod texts;
+mod together;
 mod traces;
 mod trays;
 mod tutorial;

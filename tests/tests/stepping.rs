@@ -15,10 +15,10 @@ use runtime_sim::run::{Seen, Stepping, run_again};
 use runtime_sim::scan::Controllers;
 
 /// A run by name, and what is done to its line.
-struct Case {
-    name: String,
-    texts: Texts,
-    change: Box<dyn Fn(&mut Line) + Sync + Send>,
+pub struct Case {
+    pub name: String,
+    pub texts: Texts,
+    pub change: Box<dyn Fn(&mut Line) + Sync + Send>,
 }
 
 fn case(name: &str, texts: Texts, change: impl Fn(&mut Line) + Sync + Send + 'static) -> Case {
@@ -29,7 +29,7 @@ fn machine(line: &Line, name: &str) -> usize {
     line.machines.iter().position(|machine| machine.name == name).expect("a machine of the layout")
 }
 
-fn cases() -> Vec<Case> {
+pub fn cases() -> Vec<Case> {
     let mut cases: Vec<Case> =
         examples().into_iter().map(|(name, texts)| case(&name, texts, |_| {})).collect();
     let delays =
@@ -120,7 +120,7 @@ fn tank() -> Texts {
 }
 
 /// Of a run of the short form.
-const MOST_ORDERS: usize = 2;
+pub const MOST_ORDERS: usize = 2;
 
 #[test]
 fn events_and_every_scan_are_the_same() {

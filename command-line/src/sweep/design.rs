@@ -75,6 +75,10 @@ impl Design {
         RunNumber { point: index / replications, replication: (index % replications) as u32 }
     }
 
+    pub fn index(&self, run: RunNumber) -> usize {
+        run.point * self.replications as usize + run.replication as usize
+    }
+
     /// The layout changes slowest, then the first axis, and how late devices answer fastest.
     pub fn point(&self, index: usize) -> Point {
         let mut rest = index;

@@ -44,6 +44,10 @@ impl Part {
             .filter(move |run| *run < count)
     }
 
+    pub fn has(self, run: usize) -> bool {
+        Self::having(run, self.of) == self.number
+    }
+
     /// Number, from 0, of the part that has this run.
     pub fn having(run: usize, of: usize) -> usize {
         (run % of + turn(run / of, of)) % of

@@ -10,6 +10,7 @@ use super::design::{Asked, Design, Point};
 use super::distinct;
 use super::outcome::Outcome;
 use super::precision::{self, Precision};
+use super::together;
 use super::warm_up::WarmUp;
 use autogen::backend::rust::parameters_text;
 use autogen::diagnostic::Diagnostic;
@@ -18,6 +19,7 @@ use autogen::lower::{Draft, Project, Setting, Texts};
 use autogen::source::{FileId, Sources};
 use runtime_sim::line::IoDelay;
 use runtime_sim::memory::Memory;
+use std::collections::VecDeque;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -47,8 +49,9 @@ pub struct Line {
     /// Its own, or that of its file.
     name: String,
     library: Mutex<Option<Result<SharedLibrary, String>>>,
-    /// The line of the point that was made last: that of the replications which follow.
-    last_made: Mutex<Option<(Point, Arc<Made>)>>,
+    /// The lines of the points that were made last, or what is wrong with them: those of the replications which follow, and
+    /// of runs that are made together.
+    last_made: Mutex<VecDeque<(Point, MadeOrWrong)>>,
     /// What runs of this layout have found; one for each that continues at the same time, beside the first one.
     memories: Mutex<Vec<Memory>>,
     memory: Memory,
@@ -187,6 +190,8 @@ pub struct Made {
     pub only: OnceLock<Outcome>,
 }
 
+type MadeOrWrong = Result<Arc<Made>, Vec<Diagnostic>>;
+
 impl Line {
     fn new(path: &Path, options: &SweepOptions, axes: &[Axis]) -> Result<Self, Failure> {
         let mut sources = Sources::default();
@@ -224,28 +229,30 @@ impl Line {
             settings,
             shown,
             library: Mutex::new(None),
-            last_made: Mutex::new(None),
+            last_made: Mutex::default(),
             memories: Mutex::default(),
             memory: Memory::default(),
         })
     }
 
     /// The line of a point, with the seed of its scenario and devices that answer at once.
-    pub fn made(&self, point: &Point, order: Option<u64>) -> Result<Arc<Made>, Vec<Diagnostic>> {
+    pub fn made(&self, point: &Point, order: Option<u64>) -> MadeOrWrong {
         let last_made = || self.last_made.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((of, made)) = &*last_made()
-            && of == point
-        {
-            return Ok(made.clone());
+        if let Some((_, made)) = last_made().iter().find(|(of, _)| of == point) {
+            return made.clone();
         }
         let settings: Vec<Setting> =
             self.settings.iter().zip(&point.values).map(|(of_axis, &value)| of_axis[value].clone()).collect();
         let compiled = self.draft.line(&settings, order);
-        let project = compiled.project.ok_or(compiled.diagnostics)?;
-        let parameters = parameters_text(&project.system);
-        let made = Arc::new(Made { project, parameters, only: OnceLock::new() });
-        *last_made() = Some((point.clone(), made.clone()));
-        Ok(made)
+        let made = compiled.project.ok_or(compiled.diagnostics).map(|project| {
+            let parameters = parameters_text(&project.system);
+            Arc::new(Made { project, parameters, only: OnceLock::new() })
+        });
+        let machines = made.as_ref().map_or(1, |made| made.project.plant.machines.len());
+        let mut last_made = last_made();
+        last_made.push_front((point.clone(), made.clone()));
+        last_made.truncate(together::most_runs(machines));
+        made
     }
 
     /// Lets a run use what others have found about this layout.

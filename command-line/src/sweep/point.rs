@@ -1,4 +1,4 @@
-//! One run of a point: its values made a line, and the line run.
+//! Runs of points: their values made lines, and the lines run.
 
 use super::super::controllers::{Controllers, Notice};
 use super::super::print;
@@ -13,18 +13,31 @@ use autogen::diagnostic::Diagnostic;
 use autogen::fault::reason_of_run;
 use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::memory::Memory;
-use runtime_sim::run::{Seen, Stepping, record_again, run_again};
+use runtime_sim::report::Report;
+use runtime_sim::run::{Seen, Stepping, record_again, run_together};
+use runtime_sim::scan;
 use serde_json::json;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-/// What came of a run; whatever went wrong is in it.
-pub fn outcome(plan: &Plan, number: RunNumber, notice: Notice) -> Outcome {
+/// What came of a run, and of the same replication of other points, which have its plant, by their numbers. Whatever went
+/// wrong is in it; then nothing comes of the others.
+pub fn outcomes(
+    plan: &Plan,
+    number: RunNumber,
+    others: &[usize],
+    notice: Notice,
+) -> (Outcome, Vec<(usize, Outcome)>) {
     let point = plan.design.point(number.point);
     let line = &plan.lines[point.layout];
+    let runs = |others| catch_unwind(AssertUnwindSafe(|| together(plan, number, others, notice)));
+    let mut made = runs(others);
+    if !others.is_empty() && !matches!(made, Ok(Ok(_))) {
+        made = runs(&[]);
+    }
     let mut outcome = Outcome::new(line.draft.orders(), line.draft.items());
-    match catch_unwind(AssertUnwindSafe(|| run(plan, &point, number.replication, notice))) {
-        Ok(Ok(ran)) => outcome = ran,
+    match made {
+        Ok(Ok(outcomes)) => return outcomes,
         Ok(Err(End::Refused(found))) => {
             outcome.reason = refusal(&found);
             outcome.diagnostics = print::diagnostics_json(&line.sources, &found);
@@ -43,7 +56,7 @@ pub fn outcome(plan: &Plan, number: RunNumber, notice: Notice) -> Outcome {
             outcome.status = Status::Bug;
         }
     }
-    outcome
+    (outcome, Vec::new())
 }
 
 enum End {
@@ -102,23 +115,46 @@ fn ready(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result
     Ok(Ready { made, plant, controllers })
 }
 
-/// What came of a run. Where nothing is drawn, that is known of all replications once one has run.
-fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<Outcome, End> {
+/// The same. Where nothing is drawn, what came of a run is known of all its replications.
+fn together(
+    plan: &Plan,
+    number: RunNumber,
+    others: &[usize],
+    notice: Notice,
+) -> Result<(Outcome, Vec<(usize, Outcome)>), End> {
+    let point = plan.design.point(number.point);
     let line = &plan.lines[point.layout];
-    let Ready { made, plant, mut controllers } = ready(plan, point, replication, notice)?;
-    if let Some(only) = made.only.get() {
-        return Ok(only.clone());
+    let first = ready(plan, &point, number.replication, notice)?;
+    if let Some(only) = first.made.only.get() {
+        return Ok((only.clone(), Vec::new()));
     }
-    let simulate =
-        |memory: &mut Memory| run_again(&plant, &mut controllers, Stepping::Events, memory, &mut |_| {});
-    let report = line.remembering(simulate).map_err(End::NoReport)?;
-    let reason = reason_of_run(&report, &made.project.system, &line.shown);
-    let mut outcome = Outcome::new(line.draft.orders(), line.draft.items());
-    outcome.reported(&report, reason, plan.design.warm_up);
-    if !made.project.differs(&plant) {
-        made.only.get_or_init(|| outcome.clone());
-    }
-    Ok(outcome)
+    let others = others.iter().map(|other| {
+        let ready = ready(plan, &plan.design.point(*other), number.replication, notice)?;
+        Ok((*other, ready))
+    });
+    let mut others = others.collect::<Result<Vec<_>, End>>()?;
+    let Ready { made, plant, mut controllers } = first;
+    let beside = others.iter_mut().map(|(_, other)| {
+        let controllers: &mut dyn scan::Controllers = &mut other.controllers;
+        (&other.plant, controllers)
+    });
+    let beside = beside.collect();
+    let simulate = |memory: &mut Memory| run_together(&plant, &mut controllers, beside, memory);
+    let reports = line.remembering(simulate).map_err(End::NoReport)?;
+    let outcome = |made: &Made, report: Report| {
+        let reason = reason_of_run(&report, &made.project.system, &line.shown);
+        let mut outcome = Outcome::new(line.draft.orders(), line.draft.items());
+        outcome.reported(&report, reason, plan.design.warm_up);
+        if !made.project.differs(&plant) {
+            made.only.get_or_init(|| outcome.clone());
+        }
+        outcome
+    };
+    let mut reports = reports.into_iter();
+    let first = reports.next().ok_or_else(|| End::NoReport("bug: a run has no report".into()))?;
+    let of_others =
+        others.iter().zip(reports).map(|((point, other), report)| (*point, outcome(&other.made, report)));
+    Ok((outcome(&made, first), of_others.collect()))
 }
 
 /// All diagnostics in a line.

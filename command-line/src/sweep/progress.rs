@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 
 /// A line on standard error that is written over.
 pub struct Progress {
-    done: usize,
     all: usize,
     is_wanted: bool,
     is_shown: bool,
@@ -20,14 +19,14 @@ impl Progress {
     /// Shows nothing if it is not wanted, or if nobody sees it.
     pub fn new(all: usize, quiet: bool) -> Self {
         let is_wanted = !quiet && io::stderr().is_terminal();
-        Self { done: 0, all, is_wanted, is_shown: false, last: Instant::now() }
+        Self { all, is_wanted, is_shown: false, last: Instant::now() }
     }
 
-    pub fn count(&mut self) {
-        self.done += 1;
+    /// So many are made.
+    pub fn show(&mut self, made: usize) {
         // Rows on the same terminal would push it on, a line for each.
-        if self.is_wanted && (self.last.elapsed() >= PAUSE || self.done == 1) {
-            print::err_styled(&format!("{} of {}", self.done, self.all));
+        if self.is_wanted && (self.last.elapsed() >= PAUSE || made == 1) {
+            print::err_styled(&format!("{made} of {}", self.all));
             self.last = Instant::now();
             self.is_shown = true;
         }

@@ -1,4 +1,5 @@
-//! The plant of a run and all that is known of it, from scan to scan.
+//! The plant of a run and all that is known of it, from scan to scan. Its controllers may be several that have done the
+//! same so far.
 
 use super::accounts::Accounts;
 use super::agenda::Agenda;
@@ -9,7 +10,7 @@ use super::order_times::{self, OrderTimes};
 use super::power::Unpowered;
 use super::progress::Progress;
 use super::recorders::Recorders;
-use super::variant::Variant;
+use super::variant::{Alike, Variant};
 use super::{Seen, Stepping};
 use crate::account::Activity;
 use crate::collision::{CollisionCheck, Contact};
@@ -127,7 +128,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// The inputs of the scan are latched, and the controllers execute it if something may happen in it.
-    pub fn begin(&mut self, variant: &mut Variant) -> Result<Begun, String> {
+    pub fn begin(&mut self, variants: &mut Alike) -> Result<Begun, String> {
         let (scan, scenario) = (self.scan, &self.line.scenario);
         let plant = &self.plant;
         let arrived =
@@ -135,18 +136,24 @@ impl<'a> Simulation<'a> {
         let system = self.operator.inputs(scan, scenario);
         let is_powered = scenario.is_powered(scan);
         if scenario.powers_up(scan) {
-            self.lose_power(variant);
-            variant.controllers.power_up();
-            self.alarms.power_up(&variant.trace, scan);
+            for variant in variants.iter_mut() {
+                self.lose_power(variant);
+                variant.controllers.power_up();
+            }
+            self.alarms.power_up(&variants.first.trace, scan);
             self.agenda.power_up();
         }
         self.agenda.arrive(arrived);
-        let is_due = is_powered
-            && self.agenda.is_due(&variant.waits, scan, system, &self.inputs, &self.states, &self.changes);
+        let is_due_for = |variant: &Variant| {
+            self.agenda.is_due(&variant.waits, scan, system, &self.inputs, &self.states, &self.changes)
+        };
+        let is_due = is_powered && variants.iter().any(is_due_for);
         let is_executed = is_due || is_powered && self.stepping != Stepping::Events;
         let scans = self.agenda.scans_since(scan);
         if is_executed {
-            variant.execute(scan, scans, system, &self.inputs)?;
+            for variant in variants.iter_mut() {
+                variant.execute(scan, scans, system, &self.inputs)?;
+            }
         }
         Ok(Begun { arrived, system, is_powered, is_due, is_executed, scans, acted: false })
     }
@@ -174,16 +181,22 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
+    /// Whether a timer of these controllers is running, which ends after this scan.
+    pub fn is_timed(&self, variant: &Variant) -> bool {
+        self.agenda.is_timed(&variant.waits, self.scan, &self.states, &self.changes)
+    }
+
     /// The outputs are published, and the plant goes on to the next scan in which something may happen. How the run ends,
-    /// if it does before that scan.
+    /// if it does before that scan. All of these gave the same, and timers run of all or of none.
     pub fn proceed(
         &mut self,
         begun: Begun,
-        variant: &Variant,
+        variants: &Alike,
         memory: &mut Memory,
         observer: &mut dyn FnMut(&Seen),
         mut recorders: Option<&mut Recorders>,
     ) -> Result<Option<End>, String> {
+        let variant = &variants.first;
         let (line, scan) = (self.line, self.scan);
         let Begun { arrived, system, is_powered, is_due, is_executed, acted, .. } = begun;
         let fault = self.faults.last(scan);
@@ -220,7 +233,7 @@ impl<'a> Simulation<'a> {
         }
         let is_alive = self.plant.is_busy()
             || self.operator.is_busy(scan, &line.scenario)
-            || self.agenda.is_timed(&variant.waits, scan, &self.states, &self.changes)
+            || self.is_timed(variant)
             || self.faults.is_present();
         if is_alive {
             self.progress.is_alive(scan);
@@ -233,8 +246,11 @@ impl<'a> Simulation<'a> {
             Stepping::Checked => scan >= self.quiet_until,
         };
         if looks_ahead {
+            let next_step = |variant: &Variant| {
+                self.agenda.next_step(&variant.waits, scan, &self.states, &self.changes, &self.plant)
+            };
             let events = [
-                self.agenda.next_step(&variant.waits, scan, &self.states, &self.changes, &self.plant),
+                variants.iter().filter_map(next_step).min(),
                 self.plant.next_change(),
                 self.operator.next_change(scan, &line.scenario),
                 line.scenario.next_without_power(scan),
@@ -270,13 +286,13 @@ impl<'a> Simulation<'a> {
 
     /// What each machine does from this scan on.
     fn account(&mut self, is_executed: bool, variant: &Variant, mut recorders: Option<&mut Recorders>) {
-        let (line, scan, outputs) = (self.line, self.scan, &variant.outputs);
-        for machine in 0..line.machines.len() {
+        let (line, scan) = (self.line, self.scan);
+        for (machine, outputs) in variant.outputs.iter().enumerate() {
             let is_stopped = line.machines[machine].monitor.is_stopped(&variant.trace);
             let activity = if !self.answer.running || is_stopped {
                 Activity::Stopped
             } else if self.numbers[machine]
-                .is_some_and(|(cmd, ack)| outputs[machine][cmd] != self.inputs[machine][ack])
+                .is_some_and(|(cmd, ack)| outputs[cmd] != self.inputs[machine][ack])
             {
                 Activity::Moving
             } else {
@@ -332,8 +348,9 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    pub fn report(self, end: End, variant: &mut Variant) -> (Report, Plant) {
-        self.lose_power(variant);
+    /// What came of the run, and the plant at its end.
+    pub fn report(self, end: End, variants: &mut Alike) -> (Report, Plant) {
+        variants.iter_mut().for_each(|variant| self.lose_power(variant));
         let End { finished, reason, fault } = end;
         let (finished, reason) = match self.conservation.end(self.plant.items()) {
             Ok(()) => (finished, reason),
@@ -353,7 +370,7 @@ impl<'a> Simulation<'a> {
             states: self.states,
             trace_hash: self.changes.hash(),
             collisions: self.check.into_contacts(),
-            alarms: self.alarms.until_end(&variant.trace),
+            alarms: self.alarms.until_end(&variants.first.trace),
             faults,
         };
         (Report::new(self.line, &self.plant, outcome), self.plant)

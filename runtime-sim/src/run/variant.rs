@@ -1,11 +1,14 @@
 //! Controllers in a run, and what they gave in the last scan that they executed.
 
 use super::agenda::Waits;
+use crate::image::are_same;
 use crate::line::Line;
 use crate::plant;
 use crate::scan::{Controllers, SystemInputs, SystemOutputs};
 
 pub struct Variant<'a> {
+    /// Among those of the run.
+    pub number: usize,
     pub controllers: &'a mut dyn Controllers,
     pub waits: Waits<'a>,
     pub outputs: Vec<Vec<f64>>,
@@ -17,9 +20,10 @@ pub struct Variant<'a> {
 
 impl<'a> Variant<'a> {
     /// Before their first scan.
-    pub fn new(line: &'a Line, controllers: &'a mut dyn Controllers) -> Self {
+    pub fn new(number: usize, line: &'a Line, controllers: &'a mut dyn Controllers) -> Self {
         let outputs = plant::outputs(line);
         Self {
+            number,
             controllers,
             waits: Waits::new(line),
             words: outputs.iter().map(Vec::len).collect(),
@@ -46,5 +50,47 @@ impl<'a> Variant<'a> {
         self.controllers.trace(&mut self.trace);
         self.waits.step();
         Ok(())
+    }
+
+    /// Whether another one gave the same, to the bit.
+    pub fn gave_same(&self, other: &Self) -> bool {
+        let of_machines = self.outputs.iter().zip(&other.outputs);
+        self.answer == other.answer
+            && self.trace.len() == other.trace.len()
+            && are_same(&self.trace, &other.trace)
+            && of_machines.into_iter().all(|(image, other)| are_same(image, other))
+    }
+}
+
+/// Variants that have done the same so far.
+pub struct Alike<'a> {
+    pub first: Variant<'a>,
+    pub others: Vec<Variant<'a>>,
+}
+
+impl<'a> Alike<'a> {
+    /// None of an empty list.
+    fn new(all: Vec<Variant<'a>>) -> Option<Self> {
+        let mut all = all.into_iter();
+        Some(Self { first: all.next()?, others: all.collect() })
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &Variant<'a>> {
+        std::iter::once(&self.first).chain(&self.others)
+    }
+
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Variant<'a>> {
+        std::iter::once(&mut self.first).chain(&mut self.others)
+    }
+
+    /// Takes those out that are not like the first one.
+    pub fn part(&mut self, is_like: impl Fn(&Variant<'a>, &Variant<'a>) -> bool) -> Option<Self> {
+        let first = &self.first;
+        if self.others.iter().all(|other| is_like(first, other)) {
+            return None;
+        }
+        let (alike, apart) = self.others.drain(..).partition(|other| is_like(first, other));
+        self.others = alike;
+        Self::new(apart)
     }
 }
