@@ -159,9 +159,9 @@ fn of_part(plan: &Plan, part: Part, options: &SweepOptions) -> Status {
         Err(text) => return not_planned(&options.table, &Refusal::Said(text)),
     }
     let mut status = Status::Done;
-    let mut progress = Progress::new(part.runs(plan.runs).count(), options.table.quiet);
-    let is_asked = |index| part.has(index);
-    each_run(plan, options, false, part.runs(plan.runs), is_asked, |number, outcome, made| {
+    let mut progress = Progress::new(part.runs(&plan.design).count(), options.table.quiet);
+    let is_asked = |index| part.has(&plan.design, index);
+    each_run(plan, options, false, part.runs(&plan.design), is_asked, |number, outcome, made| {
         status = rows::worse(status, outcome.status);
         progress.clear();
         say!("{}", Value::Object(outcome.to_line(&plan.design, number)));

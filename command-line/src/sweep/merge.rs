@@ -45,7 +45,7 @@ fn merge(options: &MergeOptions) -> Result<Status, Refusal> {
         files.push(file);
     }
     for index in 0..design.runs().unwrap_or(0) {
-        let number = Part::having(index, parts.len());
+        let number = Part::having(design, index, parts.len());
         let line = match files[number].line().map_err(Refusal::Failure)? {
             Line::Text(text) => outcome(&text, &parts[number].head, index),
             Line::End | Line::Broken => Err("it ends".into()),

@@ -1,5 +1,6 @@
 //! Which runs of a sweep a part has.
 
+use super::design::Design;
 use runtime_sim::random::Random;
 use std::fmt;
 
@@ -36,22 +37,34 @@ impl Part {
         self.of
     }
 
-    /// The indices of its runs, of `count` of the sweep, in their order. They differ by one at most in number from those
-    /// of another part.
-    pub fn runs(self, count: usize) -> impl Iterator<Item = usize> {
-        let lots = 0..count.div_ceil(self.of);
-        lots.map(move |lot| lot * self.of + (self.number + self.of - turn(lot, self.of)) % self.of)
-            .filter(move |run| *run < count)
+    /// The indices of its runs, in their order. Of each point every part has as many as another one, but for one, if there
+    /// are replications for all parts: a replication of all points is in one part. Else parts differ by one run at most.
+    pub fn runs(self, design: &Design) -> impl Iterator<Item = usize> {
+        let [lists, length] = lists(design, self.of);
+        let deals = 0..length.div_ceil(self.of);
+        let of_list =
+            deals.map(move |deal| deal * self.of + (self.number + self.of - turn(deal, self.of)) % self.of);
+        let of_list = of_list.filter(move |card| *card < length);
+        (0..lists).flat_map(move |list| of_list.clone().map(move |card| list * length + card))
     }
 
-    pub fn has(self, run: usize) -> bool {
-        Self::having(run, self.of) == self.number
+    pub fn has(self, design: &Design, run: usize) -> bool {
+        Self::having(design, run, self.of) == self.number
     }
 
     /// Number, from 0, of the part that has this run.
-    pub fn having(run: usize, of: usize) -> usize {
-        (run % of + turn(run / of, of)) % of
+    pub fn having(design: &Design, run: usize, of: usize) -> usize {
+        let [_, length] = lists(design, of);
+        let card = run % length.max(1);
+        (card % of + turn(card / of, of)) % of
     }
+}
+
+/// The runs as lists one after the other, each of which is dealt out in the same order: how many there are, and their
+/// length.
+fn lists(design: &Design, parts: usize) -> [usize; 2] {
+    let (runs, replications) = (design.runs().unwrap_or(0), design.replications as usize);
+    if replications >= parts { [runs / replications, replications] } else { [1, runs] }
 }
 
 impl fmt::Display for Part {
@@ -60,14 +73,16 @@ impl fmt::Display for Part {
     }
 }
 
-/// By how much a lot of as many runs as there are parts is turned before it is dealt out, a run to each part. Were it
-/// not, a part would get the same value of an axis again and again, maybe the slowest.
-fn turn(lot: usize, of: usize) -> usize {
-    (Random::new(lot as u64).next_u64() % of as u64) as usize
+/// By how much as many runs as there are parts are turned before they are dealt out, a run to each part. Were they not, a
+/// part would get the same value of an axis again and again, maybe the slowest.
+fn turn(deal: usize, of: usize) -> usize {
+    (Random::new(deal as u64).next_u64() % of as u64) as usize
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::axis::Axis;
+    use super::super::design::Asked;
     use super::*;
 
     #[test]
@@ -78,20 +93,49 @@ mod tests {
         }
     }
 
+    /// Of one axis.
+    fn design(values: usize, replications: u32) -> Design {
+        let values = (0..values).map(|value| value.to_string()).collect();
+        Design {
+            layouts: vec!["line".into()],
+            asked: Asked::Orders,
+            axes: vec![Axis { name: "agv.capacity".into(), values }],
+            orders: Vec::new(),
+            delays: Vec::new(),
+            replications,
+            warm_up: None,
+            precision: None,
+        }
+    }
+
+    fn runs(design: &Design, of: usize) -> Vec<Vec<usize>> {
+        (1..=of).map(|number| Part::new(number, of).expect("a part").runs(design).collect()).collect()
+    }
+
     #[test]
     fn each_run_is_in_exactly_one_part() {
-        for (count, of) in [(0, 3), (1, 3), (7, 1), (7, 3), (100, 7), (5, 9), (64, 8)] {
+        for (values, replications, of) in [
+            (1, 1, 3),
+            (7, 1, 1),
+            (7, 1, 3),
+            (50, 2, 7),
+            (5, 1, 9),
+            (16, 4, 8),
+            (5, 20, 7),
+            (3, 8, 8),
+            (1, 9, 4),
+        ] {
+            let design = design(values, replications);
+            let count = values * replications as usize;
             let mut dealt = vec![0; count];
-            for number in 1..=of {
-                let runs: Vec<usize> = Part::new(number, of).expect("a part").runs(count).collect();
+            for (number, runs) in runs(&design, of).into_iter().enumerate() {
                 assert!(runs.is_sorted());
-                assert!(
-                    (count / of..=count.div_ceil(of)).contains(&runs.len()),
-                    "{number} of {of}: {runs:?}"
-                );
+                let lists = if replications as usize >= of { values } else { 1 };
+                let few = lists * (count / lists / of);
+                assert!((few..=few + lists).contains(&runs.len()), "{number} of {of}: {runs:?}");
                 for run in runs {
                     dealt[run] += 1;
-                    assert_eq!(Part::having(run, of), number - 1);
+                    assert_eq!(Part::having(&design, run, of), number);
                 }
             }
             assert!(dealt.iter().all(|times| *times == 1), "{count} in {of}: {dealt:?}");
@@ -99,13 +143,23 @@ mod tests {
     }
 
     #[test]
+    fn a_replication_of_all_points_is_in_one_part() {
+        let design = design(6, 20);
+        for runs in runs(&design, 8) {
+            let replications: Vec<u32> = runs.iter().map(|run| design.run(*run).replication).collect();
+            let of_first = replications.iter().take(runs.len() / 6).copied().collect::<Vec<_>>();
+            assert_eq!(replications, of_first.repeat(6));
+        }
+    }
+
+    #[test]
     fn no_part_gets_all_slow_runs() {
-        // An axis of as many values as there are parts, each slower than the one before.
+        // Of an axis with as many values as there are parts, each is slower than the one before.
         let (count, of) = (8 * 200, 8);
         let length = |run: usize| (run % 8 + 1) as f64;
         let mean = (0..count).map(length).sum::<f64>() / of as f64;
-        for number in 1..=of {
-            let long: f64 = Part::new(number, of).expect("a part").runs(count).map(length).sum();
+        for (number, runs) in runs(&design(count, 1), of).into_iter().enumerate() {
+            let long: f64 = runs.into_iter().map(length).sum();
             assert!((long / mean - 1.0).abs() < 0.15, "{number}: {long} of {mean}");
         }
     }

@@ -67,13 +67,12 @@ impl PartFile {
 
     /// Whether all lines are those of the runs of this part, and none is missing. What is wrong is said once.
     pub fn check(&mut self, head: &Head, sources: &mut Sources) -> Result<Result<(), Diagnostic>, Failure> {
-        let count = head.design.runs().unwrap_or(0);
         let again = format!("run it again: --part {}", head.part);
-        for (done, index) in head.part.runs(count).enumerate() {
+        for (done, index) in head.part.runs(&head.design).enumerate() {
             let text = match self.line()? {
                 Line::Text(text) => text,
                 Line::End | Line::Broken => {
-                    let all = head.part.runs(count).count();
+                    let all = head.part.runs(&head.design).count();
                     let message = format!("part {} ends after {done} of its {all} runs", head.part);
                     return Ok(Err(Diagnostic::new("E0803", self.place(sources, ""), message)
                         .note("it was interrupted, or is not finished")
