@@ -9,7 +9,12 @@ mod properties;
 
 use autogen_tests::ariac;
 use autogen_tests::workspace::Workspace;
+use mimalloc::MiMalloc;
 use std::process::Command;
+
+/// That of the program.
+#[global_allocator]
+static MEMORY: MiMalloc = MiMalloc;
 
 fn main() {
     println!("The default line, on the generated controllers\n");
