@@ -314,6 +314,15 @@ impl Line {
             && (may_touch, scenario, io_delay) == (&other.may_touch, &other.scenario, &other.io_delay)
     }
 
+    /// Whether controllers wait for the same on both.
+    pub fn waits_as(&self, other: &Self) -> bool {
+        let waits = |machine: &Machine, other: &Machine| {
+            machine.states == other.states && machine.monitor == other.monitor
+        };
+        let machines = self.machines.iter().zip(&other.machines);
+        self.machines.len() == other.machines.len() && machines.into_iter().all(|(a, b)| waits(a, b))
+    }
+
     /// Whether contact of these two, machines or obstacles, is no reason to end a run.
     pub fn allows(&self, [a, b]: [&str; 2]) -> bool {
         self.may_touch.iter().any(|[c, d]| (a, b) == (c, d) || (b, a) == (c, d))

@@ -2,6 +2,7 @@
 //! them: Hybinette and Fujimoto, Cloning parallel simulations, ACM Transactions on Modeling and Computer Simulation 11
 //! (2001).
 
+use super::agenda::Waits;
 use super::recorders::Recorders;
 use super::simulation::{Begun, End, Simulation};
 use super::variant::{Alike, Variant};
@@ -40,7 +41,7 @@ impl<'a> Branch<'a> {
         let simulation = Simulation::new(line, controllers, stepping, memory)?;
         let others = (1..).zip(others);
         let others = others.map(|(number, (line, controllers))| Variant::new(number, line, controllers));
-        let variants = Alike { first: Variant::new(0, line, controllers), others: others.collect() };
+        let variants = Alike::new(Variant::new(0, line, controllers), others.collect());
         Ok(Self { simulation, variants, at: At::Begin })
     }
 
@@ -63,8 +64,11 @@ impl<'a> Branch<'a> {
                 self.at = At::Taken(begun);
             }
             if let At::Taken(begun) = self.at {
-                let simulation = &self.simulation;
-                let apart = self.variants.part(|a, b| simulation.is_timed(a) == simulation.is_timed(b));
+                let is_timed = |waits: &Waits| self.simulation.is_timed(waits);
+                let timed = is_timed(&self.variants.waits);
+                let is_like =
+                    |other: &Variant| other.waits.as_ref().is_none_or(|waits| is_timed(waits) == timed);
+                let apart = self.variants.part(|_, other| is_like(other));
                 branches.extend(apart.map(|variants| self.beside(variants)));
                 let recorders = recorders.as_deref_mut();
                 let end = self.simulation.proceed(begun, &self.variants, memory, observer, recorders)?;

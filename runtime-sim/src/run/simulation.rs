@@ -2,7 +2,7 @@
 //! same so far.
 
 use super::accounts::Accounts;
-use super::agenda::Agenda;
+use super::agenda::{Agenda, Waits};
 use super::alarms::Alarms;
 use super::changes::Changes;
 use super::faults::Faults;
@@ -144,16 +144,14 @@ impl<'a> Simulation<'a> {
             self.agenda.power_up();
         }
         self.agenda.arrive(arrived);
-        let is_due_for = |variant: &Variant| {
-            self.agenda.is_due(&variant.waits, scan, system, &self.inputs, &self.states, &self.changes)
+        let is_due_for = |waits: &Waits| {
+            self.agenda.is_due(waits, scan, system, &self.inputs, &self.states, &self.changes)
         };
-        let is_due = is_powered && variants.iter().any(is_due_for);
+        let is_due = is_powered && variants.all_waits().any(is_due_for);
         let is_executed = is_due || is_powered && self.stepping != Stepping::Events;
         let scans = self.agenda.scans_since(scan);
         if is_executed {
-            for variant in variants.iter_mut() {
-                variant.execute(scan, scans, system, &self.inputs)?;
-            }
+            variants.execute(scan, scans, system, &self.inputs)?;
         }
         Ok(Begun { arrived, system, is_powered, is_due, is_executed, scans, acted: false })
     }
@@ -181,9 +179,9 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
-    /// Whether a timer of these controllers is running, which ends after this scan.
-    pub fn is_timed(&self, variant: &Variant) -> bool {
-        self.agenda.is_timed(&variant.waits, self.scan, &self.states, &self.changes)
+    /// Whether a timer of controllers that wait for this is running, which ends after this scan.
+    pub fn is_timed(&self, waits: &Waits) -> bool {
+        self.agenda.is_timed(waits, self.scan, &self.states, &self.changes)
     }
 
     /// The outputs are published, and the plant goes on to the next scan in which something may happen. How the run ends,
@@ -233,7 +231,7 @@ impl<'a> Simulation<'a> {
         }
         let is_alive = self.plant.is_busy()
             || self.operator.is_busy(scan, &line.scenario)
-            || self.is_timed(variant)
+            || self.is_timed(&variants.waits)
             || self.faults.is_present();
         if is_alive {
             self.progress.is_alive(scan);
@@ -246,11 +244,10 @@ impl<'a> Simulation<'a> {
             Stepping::Checked => scan >= self.quiet_until,
         };
         if looks_ahead {
-            let next_step = |variant: &Variant| {
-                self.agenda.next_step(&variant.waits, scan, &self.states, &self.changes, &self.plant)
-            };
+            let next_step =
+                |waits: &Waits| self.agenda.next_step(waits, scan, &self.states, &self.changes, &self.plant);
             let events = [
-                variants.iter().filter_map(next_step).min(),
+                variants.all_waits().filter_map(next_step).min(),
                 self.plant.next_change(),
                 self.operator.next_change(scan, &line.scenario),
                 line.scenario.next_without_power(scan),

@@ -9,8 +9,10 @@ use crate::scan::{Controllers, SystemInputs, SystemOutputs};
 pub struct Variant<'a> {
     /// Among those of the run.
     pub number: usize,
+    line: &'a Line,
     pub controllers: &'a mut dyn Controllers,
-    pub waits: Waits<'a>,
+    /// None if they wait for the same as the first ones.
+    pub waits: Option<Waits<'a>>,
     pub outputs: Vec<Vec<f64>>,
     /// Words of each image of outputs.
     words: Vec<usize>,
@@ -24,8 +26,9 @@ impl<'a> Variant<'a> {
         let outputs = plant::outputs(line);
         Self {
             number,
+            line,
             controllers,
-            waits: Waits::new(line),
+            waits: None,
             words: outputs.iter().map(Vec::len).collect(),
             outputs,
             trace: Vec::new(),
@@ -48,7 +51,9 @@ impl<'a> Variant<'a> {
         }
         self.trace.clear();
         self.controllers.trace(&mut self.trace);
-        self.waits.step();
+        if let Some(waits) = &mut self.waits {
+            waits.step();
+        }
         Ok(())
     }
 
@@ -65,14 +70,18 @@ impl<'a> Variant<'a> {
 /// Variants that have done the same so far.
 pub struct Alike<'a> {
     pub first: Variant<'a>,
-    pub others: Vec<Variant<'a>>,
+    /// What the first one waits for.
+    pub waits: Waits<'a>,
+    others: Vec<Variant<'a>>,
 }
 
 impl<'a> Alike<'a> {
-    /// None of an empty list.
-    fn new(all: Vec<Variant<'a>>) -> Option<Self> {
-        let mut all = all.into_iter();
-        Some(Self { first: all.next()?, others: all.collect() })
+    pub fn new(first: Variant<'a>, mut others: Vec<Variant<'a>>) -> Self {
+        for other in &mut others {
+            let waits_for_same = other.line.waits_as(first.line);
+            other.waits = (!waits_for_same).then(|| Waits::new(other.line));
+        }
+        Self { waits: Waits::new(first.line), first, others }
     }
 
     pub fn iter(&self) -> impl Iterator<Item = &Variant<'a>> {
@@ -83,7 +92,24 @@ impl<'a> Alike<'a> {
         std::iter::once(&mut self.first).chain(&mut self.others)
     }
 
-    /// Takes those out that are not like the first one.
+    /// All that they wait for.
+    pub fn all_waits(&self) -> impl Iterator<Item = &Waits<'a>> {
+        std::iter::once(&self.waits).chain(self.others.iter().filter_map(|other| other.waits.as_ref()))
+    }
+
+    /// All execute a scan: [`Variant::execute`].
+    pub fn execute(
+        &mut self,
+        scan: u64,
+        scans: u64,
+        system: SystemInputs,
+        inputs: &[Vec<f64>],
+    ) -> Result<(), String> {
+        self.waits.step();
+        self.iter_mut().try_for_each(|variant| variant.execute(scan, scans, system, inputs))
+    }
+
+    /// Takes out those of the others that are not like the first one.
     pub fn part(&mut self, is_like: impl Fn(&Variant<'a>, &Variant<'a>) -> bool) -> Option<Self> {
         let first = &self.first;
         if self.others.iter().all(|other| is_like(first, other)) {
@@ -91,6 +117,8 @@ impl<'a> Alike<'a> {
         }
         let (alike, apart) = self.others.drain(..).partition(|other| is_like(first, other));
         self.others = alike;
-        Self::new(apart)
+        let apart: Vec<_> = apart;
+        let mut apart = apart.into_iter();
+        Some(Self::new(apart.next()?, apart.collect()))
     }
 }

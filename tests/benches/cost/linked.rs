@@ -20,7 +20,7 @@ use runtime_sim::plant::Plant;
 use runtime_sim::point::Point;
 use runtime_sim::memory::Memory;
 use runtime_sim::random::Random;
-use runtime_sim::run::{Stepping, run, run_again};
+use runtime_sim::run::{Stepping, run, run_again, run_together};
 use runtime_sim::scan::{Controllers, SystemInputs};
 use std::fs;
 use std::hint::black_box;
@@ -29,6 +29,8 @@ use std::time::Instant;
 const ROUNDS: usize = 7;
 /// Runs of the same line with other orders of its supply.
 const SEEDS: u64 = 20;
+/// Runs that are made together.
+const TOGETHER: usize = 16;
 /// Times that a step is repeated where that changes nothing, so that it is long beside what goes before it.
 const AGAIN: usize = 50;
 
@@ -177,6 +179,19 @@ fn events(line: &Line, deployed: impl Fn() -> Deployed, simpy: Option<f64>) {
     row("first run of a layout", simulated, first, 1);
     let again = (0..ROUNDS).map(|_| timed(|| simulated = run(line, &mut memory))).fold(f64::INFINITY, f64::min);
     row("the same run again", simulated, again, 1);
+    let mut together = |runs: usize| {
+        let mut all: Vec<Deployed> = (0..runs).map(|_| deployed()).collect();
+        timed(|| {
+            let mut all = all.iter_mut().map(|it| (line, it as &mut dyn Controllers));
+            let (line, controllers) = all.next().expect("a run");
+            let reports = run_together(line, controllers, all.collect(), &mut memory);
+            assert_eq!(reports.map(|all| all.len()), Ok(runs));
+        })
+    };
+    let [one, several] =
+        [1, TOGETHER].map(|runs| (0..ROUNDS).map(|_| together(runs)).fold(f64::INFINITY, f64::min));
+    let others = TOGETHER - 1;
+    row("more runs whose controllers do the same", simulated * others as f64, several - one, others);
     let lines: Vec<Line> = (1..=SEEDS).map(|seed| shuffled(line, seed)).collect();
     let mut all = 0.0;
     let seconds = timed(|| all = lines.iter().map(|line| run(line, &mut memory)).sum());
