@@ -12,10 +12,11 @@ mod written;
 
 use crate::diagnostic::{Diagnostic, sort};
 use crate::lower::Project;
-use crate::parallel::in_parts;
+use crate::parallel::{LEAST, in_parts};
 use crate::source::{Span, Spanned};
 use region::Given;
 use runtime_sim::collision::{BoundingBox, Moving, Sweep};
+use runtime_sim::machine::Machine;
 use stay::{Range, Stays};
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -59,10 +60,13 @@ struct Crossing {
 /// Pairs that work with one another directly are left out, and so are those that the layout allows to touch.
 /// `names` are those of the objects of the layout.
 pub fn warnings(names: &[Spanned<String>], project: &Project) -> Vec<Diagnostic> {
-    let machines = project.plant.machines.iter().enumerate();
-    let movers =
-        machines.filter_map(|(instance, machine)| Some(Mover { instance, moving: Moving::new(machine)? }));
-    let movers: Vec<Mover> = movers.collect();
+    let machines: Vec<(usize, &Machine)> = project.plant.machines.iter().enumerate().collect();
+    let movers = in_parts(&machines, LEAST, |machines| {
+        let mover = |(instance, machine): &(usize, &Machine)| {
+            Some(Mover { instance: *instance, moving: Moving::new(machine)? })
+        };
+        machines.iter().filter_map(mover).collect()
+    });
     let sweep = Sweep::new(movers.iter().map(|mover| mover.moving.whole()));
     let objects: BTreeMap<&str, Span> = names.iter().map(|name| (name.value.as_str(), name.span)).collect();
     let in_order = |mut pair: [usize; 2]| {

@@ -16,6 +16,20 @@ pub fn in_parts<T: Sync, R: Send>(items: &[T], least: usize, work: impl Fn(&[T])
     divided(items, items.len().div_ceil(threads).max(least).max(1), work)
 }
 
+/// What both give; the first of them works in a thread of its own if the system gives one.
+pub fn both<A: Send, B>(first: impl Fn() -> A + Sync, second: impl FnOnce() -> B) -> (A, B) {
+    thread::scope(|scope| {
+        let first = &first;
+        let begun = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, first);
+        let second = second();
+        let first = match begun {
+            Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
+            Err(_) => first(),
+        };
+        (first, second)
+    })
+}
+
 /// In parts of a length, all at the same time as far as the system gives threads.
 fn divided<T: Sync, R: Send>(items: &[T], length: usize, work: impl Fn(&[T]) -> Vec<R> + Sync) -> Vec<R> {
     let mut parts = items.chunks(length);
@@ -51,6 +65,19 @@ mod tests {
         }
         assert_eq!(in_parts(&items, 3, twice), twice(&items));
         assert!(in_parts(&[], 3, twice).is_empty());
+    }
+
+    #[test]
+    fn each_of_both_gives_what_it_gives_alone() {
+        let mut second = 0;
+        assert_eq!(both(|| 1, || second += 2), (1, ()));
+        assert_eq!(second, 2);
+    }
+
+    #[test]
+    #[should_panic(expected = "of the first")]
+    fn a_panic_of_the_first_is_one_of_the_whole() {
+        both(|| panic!("of the first"), || 1);
     }
 
     #[test]

@@ -88,8 +88,7 @@ fn numbers_of_an_object_have_paths_and_places() {
     let file = sources.add("default.json", example("default.json"));
     let layout = layout::parse(&sources, file).0.unwrap();
     let agv = layout.objects.iter().find(|o| o.name.value == "agv1").unwrap();
-    let (_, numbers) =
-        layout::machine(agv, library::device("vehicle").unwrap(), agv.pose.value, &[]).unwrap();
+    let numbers = layout::numbers(agv, library::device("vehicle").unwrap());
     let paths: Vec<&str> = numbers.iter().map(|n| n.path.as_str()).collect();
     assert_eq!(
         paths,

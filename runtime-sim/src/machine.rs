@@ -89,7 +89,7 @@ impl Machine {
         if !self.pose.is_near() {
             return Err("a coordinate of its pose is no number within 1000 km".into());
         }
-        let mut names = HashSet::new();
+        let mut names = HashSet::with_capacity(self.parts.len());
         for (index, part) in self.parts.iter().enumerate() {
             if !names.insert(&part.name) {
                 return Err(Misfit::of(index, format!("two parts {}", part.name)));

@@ -48,7 +48,9 @@ pub fn bin(pose: Point) -> Placed {
 
 /// With four kinds of part, each 0.1 m high.
 pub fn machine(name: &str, placed: &Placed) -> Machine {
-    placed.machine(name, &[Heights { top: 0.1, grasp: 0.1 }; 4], placed.device.place).expect("a machine")
+    let heights = [Heights { top: 0.1, grasp: 0.1 }; 4];
+    let (machine, _) = placed.machine(name, &heights, placed.device.place).expect("a machine");
+    machine
 }
 
 pub fn arm(placed: &Placed) -> Arm {

@@ -211,7 +211,7 @@ fn an_axis_that_does_not_carry_the_chain_changes_nothing() {
     let declared = trees.iter().map(|tree| (tree.name.value.as_str(), tree)).collect();
     let device = device::check(trees.last().unwrap(), &declared).unwrap();
     let placed = Placed { device, pose: Frame::new(Point::new(0.0, 0.0, 1.1), 0.0), arguments: Vec::new() };
-    let machine = placed.machine("m", &[Heights { top: 0.1, grasp: 0.1 }], placed.device.place).unwrap();
+    let (machine, _) = placed.machine("m", &[Heights { top: 0.1, grasp: 0.1 }], placed.device.place).unwrap();
     assert!(machine.arm().is_some());
     assert_eq!(placed.arm(), machine.arm());
 }

@@ -214,11 +214,11 @@ impl Report {
 /// types are bound to machines before.
 pub fn check(line: &Line) -> Report {
     let reachable = poses::Reachable::new(line);
-    let margins: Vec<Option<f64>> = in_parts(&line.proposals, LEAST, |proposals| {
-        proposals.iter().map(|proposal| reachable.margin(proposal)).collect()
+    let met: Vec<Option<poses::Met>> = in_parts(&line.proposals, LEAST, |proposals| {
+        proposals.iter().map(|proposal| reachable.met(proposal)).collect()
     });
-    let stands: Vec<bool> = margins.iter().map(Option::is_some).collect();
-    let edges = edges(line, &reachable, &margins);
+    let stands: Vec<bool> = met.iter().map(Option::is_some).collect();
+    let edges = edges(line, &met);
     let flow = flow::Flow::new(line);
     let served = flow.served(&stands);
     // A pair that does not meet matters only where machines are cut off.
@@ -269,26 +269,18 @@ fn most_suggestions(line: &Line) -> usize {
 }
 
 /// Of several ways to hand over the one with the greatest margin counts.
-fn edges(line: &Line, reachable: &poses::Reachable, margins: &[Option<f64>]) -> Vec<Edge> {
-    let mut best: BTreeMap<(usize, usize), (f64, &Proposal)> = BTreeMap::new();
-    for (proposal, margin) in line.proposals.iter().zip(margins) {
-        if let Some(margin) = *margin {
-            let best = best.entry((proposal.from, proposal.to)).or_insert((margin, proposal));
-            if margin > best.0 {
-                *best = (margin, proposal);
+fn edges(line: &Line, met: &[Option<poses::Met>]) -> Vec<Edge> {
+    let mut best: BTreeMap<(usize, usize), poses::Met> = BTreeMap::new();
+    for (proposal, met) in line.proposals.iter().zip(met) {
+        if let Some(met) = *met {
+            let best = best.entry((proposal.from, proposal.to)).or_insert(met);
+            if met.margin > best.margin {
+                *best = met;
             }
         }
     }
-    let best: Vec<_> = best.into_iter().collect();
-    in_parts(&best, LEAST, |best| {
-        let edges = best.iter().map(|&((from, to), (margin, proposal))| Edge {
-            from,
-            to,
-            margin,
-            wrist_room: reachable.wrist_room(proposal),
-        });
-        edges.collect()
-    })
+    let edge = |((from, to), poses::Met { margin, wrist_room })| Edge { from, to, margin, wrist_room };
+    best.into_iter().map(edge).collect()
 }
 
 impl Proposal {

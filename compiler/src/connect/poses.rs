@@ -13,9 +13,19 @@ fn each(
     line: &Line,
     proposal: &Proposal,
     passive: &Placed,
+    see: impl FnMut(&Place, &str, Stage, Point) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    each_of(line, proposal, &places(line, proposal, passive), see)
+}
+
+/// The same at these places.
+fn each_of(
+    line: &Line,
+    proposal: &Proposal,
+    places: &[Place],
     mut see: impl FnMut(&Place, &str, Stage, Point) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
-    for place in &places(line, proposal, passive) {
+    for place in places {
         for (kind, grasp) in &line.kinds {
             let contact = place.facing.back(place.point, *grasp);
             see(place, kind, Stage::Contact, contact)?;
@@ -30,6 +40,15 @@ fn places<'a>(line: &Line, proposal: &Proposal, passive: &'a Placed) -> Vec<Plac
     passive
         .handover(&site.name, site.index, site.capacity, line.kinds.len())
         .expect("a type is bound only to a machine with its handover")
+}
+
+/// How two machines meet, at the worst pose.
+#[derive(Clone, Copy)]
+pub struct Met {
+    /// How far the arm stays within its reach, m.
+    pub margin: f64,
+    /// How far the last three joints of the arm stay from their limits, deg; none if they have no limits.
+    pub wrist_room: Option<f64>,
 }
 
 /// A line with the arms of its nodes, which are worked out once.
@@ -51,25 +70,22 @@ impl<'a> Reachable<'a> {
         self.arms[node].as_ref().expect("the active one of a pair is an arm")
     }
 
-    /// How far the arm stays within its reach at the worst pose, m; none if a pose is out of it.
-    pub fn margin(&self, proposal: &Proposal) -> Option<f64> {
+    /// None if a pose is out of reach.
+    pub fn met(&self, proposal: &Proposal) -> Option<Met> {
         let arm = self.arm(proposal.arm);
-        let mut worst = f64::INFINITY;
-        let passive = &self.line.nodes[proposal.passive()].placed;
-        let seen = each(self.line, proposal, passive, |place, _, _, tool| {
-            worst = worst.min(arm.margin_facing(tool, place.facing));
-            if worst < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        let places = places(self.line, proposal, &self.line.nodes[proposal.passive()].placed);
+        let mut margin = f64::INFINITY;
+        let seen = each_of(self.line, proposal, &places, |place, _, _, tool| {
+            margin = margin.min(arm.margin_facing(tool, place.facing));
+            if margin < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        seen.is_continue().then_some(worst)
+        seen.is_continue().then(|| Met { margin, wrist_room: self.wrist_room(proposal, &places) })
     }
 
-    /// How far the last three joints of the arm stay from their limits at the worst pose, deg; none if they have no limits,
-    /// or a pose is out of reach.
-    pub fn wrist_room(&self, proposal: &Proposal) -> Option<f64> {
+    fn wrist_room(&self, proposal: &Proposal, places: &[Place]) -> Option<f64> {
         let arm = self.arm(proposal.arm);
         let mut worst = f64::INFINITY;
-        let passive = &self.line.nodes[proposal.passive()].placed;
-        let seen = each(self.line, proposal, passive, |place, _, _, tool| {
+        let seen = each_of(self.line, proposal, places, |place, _, _, tool| {
             let Some(room) = arm.wrist_room(tool, place.facing) else { return ControlFlow::Break(()) };
             worst = worst.min(room);
             ControlFlow::Continue(())

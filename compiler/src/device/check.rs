@@ -12,6 +12,7 @@ use crate::spec::ast::{self, ExprKind, Name, Scalar};
 use runtime_sim::machine::MOST_ELEMENTS;
 use runtime_sim::part::{self, ALL, Form as SettingForm, Schema};
 use runtime_sim::value::Value;
+use rustc_hash::FxHashMap;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -199,7 +200,7 @@ impl Checker<'_> {
         depth: usize,
     ) -> usize {
         let scope = self.program.scopes.len();
-        self.program.scopes.push(Scope { parent, names: HashMap::new() });
+        self.program.scopes.push(Scope { parent, names: FxHashMap::default() });
         let mut arguments = arguments;
         for (number, parameter) in tree.parameters.iter().enumerate() {
             let symbol = match arguments.remove(&parameter.name.value) {

@@ -69,31 +69,34 @@ impl Placed {
         }
     }
 
-    /// All parts of the machine; `place` is where the layout describes it. `heights` are those of the kinds.
-    pub fn parts(&self, heights: &[Heights], place: Span) -> Result<Vec<Arc<Part>>, Vec<Diagnostic>> {
+    /// The machine as the simulator takes it, without an automaton, and the values of the constants of its device,
+    /// flattened. `place` is where the layout describes it; `heights` are those of the kinds.
+    pub fn machine(
+        &self,
+        name: &str,
+        heights: &[Heights],
+        place: Span,
+    ) -> Result<(Machine, Vec<Vec<f64>>), Vec<Diagnostic>> {
         let mut diagnostics = Vec::new();
         let all: Vec<usize> = (0..self.device.program.parts.len()).collect();
         let parts = self.some(&all, heights, place, &mut diagnostics);
-        let parts = parts.into_iter().map(|(_, part)| part).collect();
-        diagnostics.extend(self.wrong_constants(heights, place));
+        let constants = self.constants(heights, place, &mut diagnostics);
         diagnostics.extend(self.wrong_directions(place));
-        sort(&mut diagnostics);
-        if diagnostics.is_empty() { Ok(parts) } else { Err(diagnostics) }
-    }
-
-    /// The machine as the simulator takes it, without an automaton.
-    pub fn machine(&self, name: &str, heights: &[Heights], place: Span) -> Result<Machine, Vec<Diagnostic>> {
+        if !diagnostics.is_empty() {
+            sort(&mut diagnostics);
+            return Err(diagnostics);
+        }
         let machine = Machine {
             name: name.into(),
             pose: self.pose.position,
-            parts: self.parts(heights, place)?,
+            parts: parts.into_iter().map(|(_, part)| part).collect(),
             wiring: self.device.wiring.clone(),
             states: Vec::new(),
             monitor: Default::default(),
             visits: None,
         };
         match machine.check() {
-            Ok(()) => Ok(machine),
+            Ok(()) => Ok((machine, constants)),
             Err(misfit) => {
                 let message = format!("`{name}` cannot be built from its device: {}", misfit.reason);
                 let diagnostic = match misfit.part.and_then(|part| self.device.place_of(part)) {
@@ -121,7 +124,7 @@ impl Placed {
                 parts.push((*number, known.clone()));
                 continue;
             }
-            let mut settings = Vec::new();
+            let mut settings = Vec::with_capacity(part.settings.len());
             let before = diagnostics.len();
             for given in &part.settings {
                 let Some(setting) = part.schema.setting(&given.name.value) else { continue };
@@ -145,21 +148,34 @@ impl Placed {
         parts
     }
 
-    /// Constants that are not of their types for this machine: generated code relies on them.
-    fn wrong_constants(&self, heights: &[Heights], place: Span) -> Vec<Diagnostic> {
+    /// The values of the constants of the device, flattened; those that are not of their types are reported: generated
+    /// code relies on them.
+    fn constants(
+        &self,
+        heights: &[Heights],
+        place: Span,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Vec<Vec<f64>> {
         let environment = self.environment(heights, None);
-        let constants =
-            self.device.constants.iter().filter_map(|constant| {
-                let value = match environment.value(0, self.expression(&constant.name)?) {
-                    Ok(value) => value,
-                    Err(found) => return Some(found.other(place, "for this machine")),
-                };
-                let reason = constant.refuses(&value, heights.len())?;
-                let message = format!("`{}` of {} {reason}", constant.name, self.device.name);
-                Some(Diagnostic::new("E0709", place, message).other(self.device.place, "the device").help(
-                    "change the device, the scenario's kinds, or the values of the machine in the layout",
-                ))
-            });
+        let constants = self.device.constants.iter().map(|constant| {
+            let mut words = Vec::new();
+            let Some(expression) = self.expression(&constant.name) else { return words };
+            match environment.value(0, expression) {
+                Ok(value) => {
+                    if let Some(reason) = constant.refuses(&value, heights.len()) {
+                        let message = format!("`{}` of {} {reason}", constant.name, self.device.name);
+                        let wrong = Diagnostic::new("E0709", place, message).other(self.device.place, "the device");
+                        diagnostics.push(wrong.help(
+                            "change the device, the scenario's kinds, or the values of the machine in the layout",
+                        ));
+                    }
+                    flatten(&value, &mut words);
+                    words.truncate(constant.ty.words() * constant.extent.elements(heights.len()));
+                }
+                Err(found) => diagnostics.push(found.other(place, "for this machine")),
+            }
+            words
+        });
         constants.collect()
     }
 
@@ -266,16 +282,6 @@ impl Placed {
             }
         }
         ground
-    }
-
-    /// The values of a device constant, flattened; `None` if this device has no such constant.
-    pub fn constant(&self, name: &str, heights: &[Heights]) -> Option<Vec<f64>> {
-        let constant = self.device.constants.iter().find(|constant| constant.name == name)?;
-        let value = self.environment(heights, None).value(0, self.expression(name)?).ok()?;
-        let mut words = Vec::new();
-        flatten(&value, &mut words);
-        words.truncate(constant.ty.words() * constant.extent.elements(heights.len()));
-        Some(words)
     }
 
     /// The places of a handover that a type names, such as `stops[0]`, `pick_zone` or `places`. Of places with

@@ -3,7 +3,7 @@
 use crate::spec::ast;
 use runtime_sim::part::Schema;
 use runtime_sim::value::Value;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
 /// What is evaluated for each machine.
@@ -25,7 +25,7 @@ pub struct Program {
 pub struct Scope {
     /// Where the arguments of an assembly are evaluated.
     pub parent: Option<usize>,
-    pub names: HashMap<String, Symbol>,
+    pub names: FxHashMap<String, Symbol>,
 }
 
 #[derive(Debug)]

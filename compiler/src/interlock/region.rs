@@ -1,6 +1,6 @@
 //! Where points of a line may be, as far as its texts and its layout tell.
 
-use super::few::{around, few};
+use super::few::{Few, around, few};
 use super::writers::Writers;
 use super::written::{Written, WrittenBy};
 use crate::ir::{
@@ -180,9 +180,14 @@ impl<'a> Regions<'a> {
         numbers: Option<Span>,
     ) -> Vec<Region> {
         let evaluate = || {
-            few(rows.iter().flat_map(|row| {
-                points_of(elements_of(self.system.shown(interface, *row, parameter), numbers))
-            }))
+            let mut all = Few::default();
+            for row in rows {
+                match elements_of(self.system.shown(interface, *row, parameter), numbers) {
+                    [one] => all.extend(point_of(one)),
+                    values => all.extend(points_of(values)),
+                }
+            }
+            all.regions
         };
         if rows.len() < self.system.members[interface.0].len() {
             return evaluate();
@@ -431,11 +436,14 @@ fn spanned(values: impl Iterator<Item = Option<f64>>) -> Option<Span> {
 }
 
 fn points_of(values: &[Value]) -> Vec<Region> {
-    let points = values.iter().filter_map(|value| match value {
+    few(values.iter().filter_map(point_of))
+}
+
+fn point_of(value: &Value) -> Option<Region> {
+    match value {
         Value::Point(point) => Some(point.map(|value| [value, value])),
         _ => None,
-    });
-    few(points)
+    }
 }
 
 fn exactly(point: runtime_sim::point::Point) -> Region {

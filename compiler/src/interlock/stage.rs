@@ -4,7 +4,7 @@ use super::region::Region;
 use runtime_sim::collision::Moving;
 use runtime_sim::kinematics::facing::Facing;
 use runtime_sim::point::Point;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 #[derive(Clone, Copy)]
 pub struct Corner {
@@ -30,18 +30,29 @@ pub struct Stage {
 /// The corners of one machine.
 pub struct Places<'a> {
     moving: &'a Moving,
-    numbers: HashMap<[[i64; 3]; 3], usize>,
+    numbers: FxHashMap<[[i64; 3]; 3], usize>,
 }
 
 impl<'a> Places<'a> {
     pub fn new(moving: &'a Moving) -> Self {
-        Self { moving, numbers: HashMap::new() }
+        Self { moving, numbers: FxHashMap::default() }
     }
 
     pub fn stage(&mut self, regions: &[Region], facing: Facing) -> Stage {
-        let corners = |region: &Region| Corners {
-            corners: std::array::from_fn(|number| self.corner(region, number, facing)),
-            wide: (0..3).map(|axis| usize::from(region[axis][0] != region[axis][1]) << axis).sum(),
+        let corners = |region: &Region| {
+            let axes = |is_one: &dyn Fn([f64; 2]) -> bool| -> usize {
+                (0..3).map(|axis| usize::from(is_one(region[axis])) << axis).sum()
+            };
+            // Also those that differ by the sign of a zero.
+            let differs = axes(&|[low, high]| low.to_bits() != high.to_bits());
+            let mut corners = [self.corner(region, 0, facing); 8];
+            for number in 1..8 {
+                corners[number] = match number & differs {
+                    same if same < number => corners[same],
+                    _ => self.corner(region, number, facing),
+                };
+            }
+            Corners { corners, wide: axes(&|[low, high]| low != high) }
         };
         Stage { regions: regions.iter().map(corners).collect(), facing }
     }

@@ -15,6 +15,7 @@ use runtime_sim::machine::Machine;
 use runtime_sim::part::{Primitive, chain};
 use runtime_sim::point::Point;
 use runtime_sim::wiring::Source;
+use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::f64::consts::{FRAC_PI_4, TAU};
@@ -125,7 +126,7 @@ pub fn range(given: &Given, instance: usize, moving: &Moving) -> Range {
         instance,
         moving,
         stays: Vec::new(),
-        paths: HashMap::new(),
+        paths: FxHashMap::default(),
         key: Vec::new(),
         sets: Sets::default(),
     };
@@ -179,7 +180,7 @@ struct Found<'a> {
     moving: &'a Moving,
     stays: Vec<Stay>,
     /// By the numbers of the corners.
-    paths: HashMap<Vec<usize>, Known>,
+    paths: FxHashMap<Vec<usize>, Known>,
     /// The numbers of the present one.
     key: Vec<usize>,
     sets: Sets,

@@ -3,6 +3,7 @@
 use super::region::{Bound, Given, Region, Regions};
 use super::stay::motions;
 use crate::ir::System;
+use crate::parallel::{LEAST, in_parts};
 use runtime_sim::line::Line;
 use runtime_sim::point::Point;
 use std::collections::BTreeSet;
@@ -10,8 +11,11 @@ use std::collections::BTreeSet;
 /// Of each machine, by its number: the stops of its route at which it can be, as far as its text and the layout tell, in
 /// ascending order; none: at any, or it has no route.
 pub fn of_all(system: &System, line: &Line) -> Vec<Option<Vec<usize>>> {
-    let given = Given::new(system, line);
-    (0..line.machines.len()).map(|instance| of(&given, instance)).collect()
+    let instances: Vec<usize> = (0..line.machines.len()).collect();
+    in_parts(&instances, LEAST, |instances| {
+        let given = Given::new(system, line);
+        instances.iter().map(|instance| of(&given, *instance)).collect()
+    })
 }
 
 fn of(given: &Given, instance: usize) -> Option<Vec<usize>> {

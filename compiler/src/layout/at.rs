@@ -216,7 +216,7 @@ impl Places<'_> {
             let span = object.at.as_ref().map_or(object.span, |at| at.span);
             return Err(vec![Diagnostic::new("E0148", span, message).help("write a pose")]);
         };
-        let (arguments, _) = machine::arguments(object, &device, self.routes)?;
+        let arguments = machine::arguments(object, &device, self.routes)?;
         Ok(Placed { device, pose, arguments })
     }
 }

@@ -85,7 +85,7 @@ impl Decoder {
         collect(&mut self.diagnostics, diagnostic);
     }
 
-    pub fn wrong_type(&mut self, json: &Json, what: &str, wanted: &str) {
+    pub fn wrong_type(&mut self, json: &Json, what: impl Display, wanted: &str) {
         let found = json.value.noun();
         self.report(
             Diagnostic::new("E0110", json.span, format!("{what} must be {wanted}, not {found}"))
@@ -104,7 +104,7 @@ impl Decoder {
         }
     }
 
-    pub fn list<'a>(&mut self, json: &'a Json, what: &str) -> Option<&'a [Json]> {
+    pub fn list<'a>(&mut self, json: &'a Json, what: impl Display) -> Option<&'a [Json]> {
         match &json.value {
             Value::List(items) => Some(items),
             _ => {
@@ -185,8 +185,13 @@ impl Decoder {
     }
 
     /// A list of exactly these elements.
-    pub fn exactly<'a>(&mut self, json: &'a Json, what: &str, elements: &[&str]) -> Option<&'a [Json]> {
-        let items = self.list(json, what)?;
+    pub fn exactly<'a>(
+        &mut self,
+        json: &'a Json,
+        what: impl Display,
+        elements: &[&str],
+    ) -> Option<&'a [Json]> {
+        let items = self.list(json, &what)?;
         let (wanted, found) = (elements.len(), items.len());
         if found != wanted {
             self.report(
@@ -214,7 +219,7 @@ impl Decoder {
         members: &'a [Member],
         key: &str,
         place: Span,
-        what: &str,
+        what: impl Display,
     ) -> Option<&'a Json> {
         let found = find(members, key);
         if found.is_none() {
@@ -224,7 +229,7 @@ impl Decoder {
     }
 
     /// None of these keys is there, of which one is required; a key that is one of them but for its spelling is the place.
-    pub fn missing(&mut self, members: &[Member], keys: &[&str], place: Span, what: &str) {
+    pub fn missing(&mut self, members: &[Member], keys: &[&str], place: Span, what: impl Display) {
         let written = members.iter().map(|member| member.key.value.as_str());
         let near = keys.iter().find_map(|key| Some((*key, suggestion(key, written.clone())?)));
         let misspelt = near.and_then(|(_, near)| members.iter().find(|member| member.key.value == near));
@@ -258,7 +263,7 @@ impl Decoder {
         self.unknown_among(keys, known, what, elsewhere);
     }
 
-    pub fn unknown_keys(&mut self, members: &[Member], known: &[&str], what: &str) {
+    pub fn unknown_keys(&mut self, members: &[Member], known: &[&str], what: impl Display) {
         self.unknown_among(members.iter().map(|m| &m.key), known, what, |_| None);
     }
 
@@ -266,7 +271,7 @@ impl Decoder {
         &mut self,
         keys: impl Iterator<Item = &'a Spanned<String>>,
         known: &[&str],
-        what: &str,
+        what: impl Display,
         elsewhere: impl Fn(&str) -> Option<String>,
     ) {
         for key in keys.filter(|k| !known.contains(&k.value.as_str())) {

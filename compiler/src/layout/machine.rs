@@ -2,14 +2,15 @@
 
 use super::decode::{Decoder, find, instead, listing};
 use super::json::Json;
-use super::object::COMMON_KEYS;
+use super::object::{self, COMMON_KEYS};
 use super::{Number, Object, Part, Routes};
 use crate::device::{Device, Form, Parameter, Placed};
 use crate::diagnostic::{Diagnostic, sort};
 use runtime_sim::frame::Frame;
 use runtime_sim::line::Obstacle;
-use runtime_sim::point::Axis;
+use runtime_sim::point::{Axis, Point};
 use runtime_sim::value::Value;
+use std::fmt::Display;
 use std::sync::Arc;
 
 /// No time that a machine takes is longer, s.
@@ -17,36 +18,47 @@ pub const LONGEST_S: f64 = 1e5;
 
 pub const OBSTACLES: [&str; 6] = ["bin", "station", "assembly_station", "collector", "rail", "box"];
 
-/// A machine whose type is bound to a device, at this place, and all numbers of its object, those of the pose first.
+/// A machine whose type is bound to a device, at this place.
 pub fn machine(
     object: &Object,
     device: &Arc<Device>,
     pose: Frame,
     routes: &[Routes],
-) -> Result<(Placed, Vec<Number>), Vec<Diagnostic>> {
-    let (arguments, numbers) = arguments(object, device, routes)?;
+) -> Result<Placed, Vec<Diagnostic>> {
+    let arguments = arguments(object, device, routes)?;
     turned(object, device, pose)?;
     let placed = Placed { device: device.clone(), pose, arguments };
     unmet(object, &placed)?;
-    Ok((placed, numbers))
+    Ok(placed)
 }
 
-/// Values of the parameters of its device, and all numbers of its object, those of the pose first.
-pub fn arguments(
-    object: &Object,
-    device: &Device,
-    routes: &[Routes],
-) -> Result<(Vec<Value>, Vec<Number>), Vec<Diagnostic>> {
+/// The numbers of a machine's object that may be changed so that machines meet, those of the pose first.
+pub fn numbers(object: &Object, device: &Device) -> Vec<Number> {
+    let Point { x, y, z } = object.pose.value.position;
+    let of_pose = object.coordinates.iter().zip([x, y, z]).enumerate();
+    let of_pose = of_pose.map(|(i, (span, value))| Number { path: format!("pose[{i}]"), value, span: *span });
+    let is_changed = |form: &Form| matches!(form, Form::Real | Form::Range | Form::Point | Form::Points(_));
+    let keys = device.parameters.iter().filter(|parameter| is_changed(&parameter.form));
+    let of_keys = keys.filter_map(|key| Some(object::numbers(find(&object.members, &key.name)?, &key.name)));
+    of_pose.chain(of_keys.flatten()).collect()
+}
+
+/// Values of the parameters of its device.
+pub fn arguments(object: &Object, device: &Device, routes: &[Routes]) -> Result<Vec<Value>, Vec<Diagnostic>> {
     let of_routes = device.parameters.iter().find(|parameter| parameter.form == Form::Routes);
     let key = of_routes.map(|parameter| parameter.name.as_str());
-    let mut reader =
-        Reader { object, routes, key, decoder: Decoder::default(), numbers: object.pose_numbers.clone() };
+    let mut reader = Reader { object, routes, key, decoder: Decoder::default() };
     let known: Vec<&str> = device.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-    unknown_keys(&mut reader.decoder, object, &known, &format!("an object on the device {}", device.name));
+    unknown_keys(
+        &mut reader.decoder,
+        object,
+        &known,
+        format_args!("an object on the device {}", device.name),
+    );
     let arguments: Vec<_> = device.parameters.iter().map(|parameter| reader.argument(parameter)).collect();
     let mut diagnostics = std::mem::take(&mut reader.decoder.diagnostics);
     match arguments.into_iter().collect::<Option<Vec<_>>>().filter(|_| diagnostics.is_empty()) {
-        Some(arguments) => Ok((arguments, reader.numbers)),
+        Some(arguments) => Ok(arguments),
         None => {
             sort(&mut diagnostics);
             Err(diagnostics)
@@ -93,7 +105,7 @@ pub fn obstacle(object: &Object) -> Result<Obstacle, Vec<Diagnostic>> {
     let mut decoder = Decoder::default();
     let kind = object.kind.value.as_str();
     if OBSTACLES.contains(&kind) && object.part == Part::Stationary {
-        unknown_keys(&mut decoder, object, &[], &format!("a {kind} without an automaton"));
+        unknown_keys(&mut decoder, object, &[], format_args!("a {kind} without an automaton"));
     } else {
         decoder.report(
             Diagnostic::new("E0126", object.kind.span, format!("no automaton has the type \"{kind}\""))
@@ -122,7 +134,7 @@ pub fn obstacle(object: &Object) -> Result<Obstacle, Vec<Diagnostic>> {
     }
 }
 
-fn unknown_keys(decoder: &mut Decoder, object: &Object, own: &[&str], what: &str) {
+fn unknown_keys(decoder: &mut Decoder, object: &Object, own: &[&str], what: impl Display) {
     let mut known = COMMON_KEYS.to_vec();
     known.extend(own);
     if object.part == Part::Stationary {
@@ -138,14 +150,12 @@ struct Reader<'a> {
     /// That names those of this machine.
     key: Option<&'a str>,
     decoder: Decoder,
-    numbers: Vec<Number>,
 }
 
 impl<'a> Reader<'a> {
     fn argument(&mut self, parameter: &Parameter) -> Option<Value> {
         let key = parameter.name.as_str();
         if let (Some(default), None) = (&parameter.default, find(&self.object.members, key)) {
-            // Numbers that stand nowhere are none that could be changed.
             return Some(default.clone());
         }
         match &parameter.form {
@@ -153,9 +163,7 @@ impl<'a> Reader<'a> {
             Form::Range => self.range(key).map(|range| Value::List(range.map(Value::Number).to_vec())),
             Form::Real => {
                 let json = self.required(key)?;
-                let number = self.decoder.metres(json, key.to_string())?;
-                self.numbers.push(number.clone());
-                Some(Value::Number(number.value))
+                self.decoder.metres(json, key).map(Value::Number)
             }
             Form::Time => {
                 let json = self.required(key)?;
@@ -164,9 +172,7 @@ impl<'a> Reader<'a> {
             }
             Form::Point => {
                 let json = self.required(key)?;
-                let (point, numbers) = self.decoder.point(json, key)?;
-                self.numbers.extend(numbers);
-                Some(Value::Point(point))
+                self.decoder.point(json, key).map(Value::Point)
             }
             Form::Points(elements) => self.points(key, elements),
             Form::Routes => self.routes(key).map(Routes::value),
@@ -214,8 +220,8 @@ impl<'a> Reader<'a> {
     }
 
     fn required(&mut self, key: &str) -> Option<&'a Json> {
-        let what = format!("\"{}\"", self.object.name.value);
-        self.decoder.required(&self.object.members, key, self.object.span, &what)
+        let Object { members, span, name, .. } = self.object;
+        self.decoder.required(members, key, *span, format_args!("\"{}\"", name.value))
     }
 
     fn axis(&mut self, key: &str) -> Option<Axis> {
@@ -240,9 +246,7 @@ impl<'a> Reader<'a> {
 
     fn range(&mut self, key: &str) -> Option<[f64; 2]> {
         let json = self.required(key)?;
-        let numbers = self.decoder.metres_list(json, key, &["lower end", "upper end"])?;
-        let (lower, upper) = (numbers[0].value, numbers[1].value);
-        self.numbers.extend(numbers);
+        let [lower, upper] = self.decoder.metres_list(json, key, ["lower end", "upper end"])?;
         if lower >= upper {
             self.decoder.report(
                 Diagnostic::new(
@@ -266,14 +270,8 @@ impl<'a> Reader<'a> {
         let elements: Vec<&str> = elements.iter().map(String::as_str).collect();
         let items = self.decoder.exactly(json, key, &elements)?;
         let points: Vec<_> = (items.iter().enumerate())
-            .map(|(i, item)| self.decoder.point(item, &format!("{key}[{i}]")))
+            .map(|(i, item)| Some(Value::Point(self.decoder.point(item, format_args!("{key}[{i}]"))?)))
             .collect();
-        let mut values = Vec::new();
-        for point in points {
-            let (point, numbers) = point?;
-            self.numbers.extend(numbers);
-            values.push(Value::Point(point));
-        }
-        Some(Value::List(values))
+        points.into_iter().collect::<Option<_>>().map(Value::List)
     }
 }

@@ -10,7 +10,7 @@ mod paths;
 pub(crate) mod read;
 pub mod routes;
 
-pub use machine::{machine, obstacle};
+pub use machine::{machine, numbers, obstacle};
 pub use object::{Object, Part};
 pub use paths::OUTSIDE;
 pub use read::{KEYS, Reading, parse};

@@ -8,6 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::source::{Span, Spanned};
 use runtime_sim::frame::Frame;
 use runtime_sim::point::Point;
+use std::fmt::Display;
 
 /// The list of the layout in which an object stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +26,8 @@ pub struct Object {
     pub span: Span,
     /// Where it stands; the key `pose`. The origin for one with `at`.
     pub pose: Spanned<Frame>,
-    pub pose_numbers: Vec<Number>,
+    /// Where its coordinates stand; none of one with `at`.
+    pub coordinates: Vec<Span>,
     pub at: Option<At>,
     /// The key `box` of a stationary thing: its lengths along x, y and z.
     pub size: Option<Spanned<Point>>,
@@ -47,10 +49,33 @@ pub fn is_common(key: &str) -> bool {
 /// No coordinate of a factory is farther from the origin, in metres.
 pub const FARTHEST: f64 = 1000.0;
 
+/// All numbers of a value, each by its path, which begins with that of the value.
+pub fn numbers(json: &Json, path: &str) -> Vec<Number> {
+    match &json.value {
+        Value::Number(value) => vec![Number { path: path.into(), value: *value, span: json.span }],
+        Value::List(items) => {
+            let items = items.iter().enumerate();
+            items.flat_map(|(i, item)| numbers(item, &format!("{path}[{i}]"))).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Where the coordinates of a pose stand.
+fn coordinates(pose: &Json) -> Vec<Span> {
+    match &pose.value {
+        Value::List(items) => items.iter().take(3).map(|item| item.span).collect(),
+        _ => Vec::new(),
+    }
+}
+
 impl Decoder {
     /// A coordinate or a length in metres.
-    pub fn metres(&mut self, json: &Json, path: String) -> Option<Number> {
-        let value = self.number(json, &path)?;
+    pub fn metres(&mut self, json: &Json, path: impl Display) -> Option<f64> {
+        let Value::Number(value) = json.value else {
+            self.wrong_type(json, path, "a number");
+            return None;
+        };
         if value.abs() > FARTHEST {
             self.report(
                 Diagnostic::new(
@@ -63,23 +88,27 @@ impl Decoder {
             );
             return None;
         }
-        Some(Number { path, value, span: json.span })
+        Some(value)
     }
 
-    pub fn metres_list(&mut self, json: &Json, path: &str, elements: &[&str]) -> Option<Vec<Number>> {
-        let items = self.exactly(json, path, elements)?;
-        let read: Vec<_> =
-            items.iter().enumerate().map(|(i, item)| self.metres(item, format!("{path}[{i}]"))).collect();
-        read.into_iter().collect()
+    pub fn metres_list<const N: usize>(
+        &mut self,
+        json: &Json,
+        path: impl Display,
+        elements: [&str; N],
+    ) -> Option<[f64; N]> {
+        let items = self.exactly(json, &path, &elements)?;
+        let read: [Option<f64>; N] =
+            std::array::from_fn(|i| self.metres(&items[i], format_args!("{path}[{i}]")));
+        read.iter().all(Option::is_some).then(|| read.map(Option::unwrap_or_default))
     }
 
-    pub fn point(&mut self, json: &Json, path: &str) -> Option<(Point, Vec<Number>)> {
-        let numbers = self.metres_list(json, path, &["x", "y", "z"])?;
-        Some((Point::new(numbers[0].value, numbers[1].value, numbers[2].value), numbers))
+    pub fn point(&mut self, json: &Json, path: impl Display) -> Option<Point> {
+        self.metres_list(json, path, ["x", "y", "z"]).map(|[x, y, z]| Point::new(x, y, z))
     }
 
-    /// A place, and behind it degrees to the left if it is turned; the numbers are those of the place.
-    fn pose(&mut self, json: &Json) -> Option<(Frame, Vec<Number>)> {
+    /// A place, and behind it degrees to the left if it is turned.
+    fn pose(&mut self, json: &Json) -> Option<Frame> {
         let (json, yaw) = match &json.value {
             Value::List(items) if items.len() == 4 => {
                 let yaw = self.number_in(&items[3], "pose[3]", -360.0..=360.0)?;
@@ -87,8 +116,7 @@ impl Decoder {
             }
             _ => (json, 0.0),
         };
-        let (position, numbers) = self.point(json, "pose")?;
-        Some((Frame::new(position, yaw), numbers))
+        Some(Frame::new(self.point(json, "pose")?, yaw))
     }
 
     pub fn layout_object(&mut self, json: &Json, part: Part) -> Option<Object> {
@@ -108,7 +136,7 @@ impl Decoder {
         let (at, pose) = match (find(members, "at"), find(members, "pose")) {
             (Some(at), None) => {
                 let found = self.at(at);
-                let pose = found.as_ref().map(|_| (at.span, (Frame::default(), Vec::new())));
+                let pose = found.as_ref().map(|_| (at.span, Frame::default(), Vec::new()));
                 (found, pose)
             }
             (Some(at), Some(_)) => {
@@ -116,7 +144,7 @@ impl Decoder {
                 self.report(Diagnostic::new("E0148", at.span, message).help("leave out one of the two"));
                 (None, None)
             }
-            (None, Some(pose)) => (None, self.pose(pose).map(|read| (pose.span, read))),
+            (None, Some(pose)) => (None, self.pose(pose).map(|read| (pose.span, read, coordinates(pose)))),
             (None, None) => {
                 self.missing(members, &["pose", "at"], json.span, &described);
                 (None, None)
@@ -133,14 +161,14 @@ impl Decoder {
             }
         });
         let specific = members.iter().filter(|m| !is_common(&m.key.value));
-        let (pose_span, (pose, pose_numbers)) = pose?;
+        let (pose_span, pose, coordinates) = pose?;
         Some(Object {
             name: name?,
             kind: kind?,
             part,
             span: json.span,
             pose: Spanned { value: pose, span: pose_span },
-            pose_numbers,
+            coordinates,
             at,
             size,
             members: specific.cloned().collect(),
@@ -163,16 +191,13 @@ impl Decoder {
     }
 
     fn size(&mut self, json: &Json) -> Option<Spanned<Point>> {
-        let (size, numbers) = self.point(json, "box")?;
-        if let Some(flat) = numbers.iter().find(|n| n.value <= 0.0) {
+        let size = self.point(json, "box")?;
+        let flat = numbers(json, "box").into_iter().find(|number| number.value <= 0.0);
+        if let Some(Number { path, value, span }) = flat {
             self.report(
-                Diagnostic::new(
-                    "E0114",
-                    flat.span,
-                    format!("{} must be a length over 0, not {}", flat.path, flat.value),
-                )
-                .note("the box has its lengths along x, y and z")
-                .help("write a positive length, or leave \"box\" out"),
+                Diagnostic::new("E0114", span, format!("{path} must be a length over 0, not {value}"))
+                    .note("the box has its lengths along x, y and z")
+                    .help("write a positive length, or leave \"box\" out"),
             );
             return None;
         }

@@ -65,14 +65,14 @@ impl Decoder {
         self.distinct(nodes.iter().map(|node| &node.key), "a node");
         let nodes: Vec<_> = nodes.iter().filter_map(|node| self.node(node)).collect();
         let edges = self.required(members, "edges", member.value.span, &what);
-        let edges = edges.and_then(|json| self.list(json, &format!("{what}.edges"))).unwrap_or_default();
+        let edges = edges.and_then(|json| self.list(json, format_args!("{what}.edges"))).unwrap_or_default();
         let edges = edges.iter().filter_map(|edge| self.edge(edge, &nodes)).flatten().collect();
         Some(Routes { name: member.key.clone(), nodes, edges })
     }
 
     fn node(&mut self, node: &Member) -> Option<(Spanned<String>, Point)> {
         self.identifier(&node.key, "a node");
-        let (point, _) = self.point(&node.value, &node.key.value)?;
+        let point = self.point(&node.value, &node.key.value)?;
         Some((node.key.clone(), point))
     }
 

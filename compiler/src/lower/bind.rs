@@ -4,7 +4,7 @@ use crate::device::Placed;
 use crate::diagnostic::{Diagnostic, MOST, collect, suggestion};
 use crate::ir::{Automaton, Model};
 use crate::layout::decode::readable;
-use crate::layout::{self, Layout, Number, Object, Part, json};
+use crate::layout::{self, Layout, Object, Part, json};
 use runtime_sim::line::Obstacle;
 use std::collections::HashMap;
 
@@ -18,7 +18,6 @@ pub struct Robot<'a> {
     pub object: &'a Object,
     pub automaton: String,
     pub placed: Placed,
-    pub numbers: Vec<Number>,
 }
 
 pub fn bind<'a>(layout: &'a Layout, model: &Model, diagnostics: &mut Vec<Diagnostic>) -> Bound<'a> {
@@ -35,9 +34,7 @@ pub fn bind<'a>(layout: &'a Layout, model: &Model, diagnostics: &mut Vec<Diagnos
         match automata.get(name.as_str()) {
             Some(automaton) => {
                 match pose.map(|pose| layout::machine(object, &automaton.device, pose, &layout.routes)) {
-                    Some(Ok((placed, numbers))) => {
-                        bound.robots.push(Robot { object, automaton: name, placed, numbers });
-                    }
+                    Some(Ok(placed)) => bound.robots.push(Robot { object, automaton: name, placed }),
                     Some(Err(found)) => {
                         found.into_iter().for_each(|d| collect(diagnostics, of_parameters(d)));
                     }

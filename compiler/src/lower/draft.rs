@@ -10,6 +10,7 @@ use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};
 use crate::ir::Model;
 use crate::layout::{Layout, Panel, Reading};
+use crate::parallel::both;
 use crate::scenario::{Number, Scenario};
 use crate::source::{FileId, Sources, Span};
 use crate::spec::{ast, parser};
@@ -286,16 +287,24 @@ impl Parts {
         let mut plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
         let visits = interlock::visits::of_all(&system, &plant);
         plant.machines.iter_mut().zip(visits).for_each(|(machine, visits)| machine.visits = visits);
-        found.diagnostics.extend(overlap::overlaps(&layout, &plant));
-        found.diagnostics.extend(resized::items(&line, &plant));
         let transfers = transfers(&plant);
-        found.diagnostics.extend(collected::out_of_reach(&scenario, &layout, &plant, &edges, &transfers));
-        let comes = collected::comes_onto(&plant, &edges, &transfers);
-        found.diagnostics.extend(short::lanes(&layout, &plant, comes));
-        if let Some(verdict) = &mut found.verdict {
-            verdict.add_conveyors(&plant, &edges, &transfers);
-        }
-        found.warnings = lint::of_layout(&layout, &system, &plant);
+        let of_plant = || {
+            let overlaps = overlap::overlaps(&layout, &plant);
+            let out_of_reach = collected::out_of_reach(&scenario, &layout, &plant, &edges, &transfers);
+            let comes = collected::comes_onto(&plant, &edges, &transfers);
+            (overlaps, out_of_reach, short::lanes(&layout, &plant, comes))
+        };
+        let ((overlaps, out_of_reach, short), warnings) = both(of_plant, || {
+            if let Some(verdict) = &mut found.verdict {
+                verdict.add_conveyors(&plant, &edges, &transfers);
+            }
+            lint::of_layout(&layout, &system, &plant)
+        });
+        found.diagnostics.extend(overlaps);
+        found.diagnostics.extend(resized::items(&line, &plant));
+        found.diagnostics.extend(out_of_reach);
+        found.diagnostics.extend(short);
+        found.warnings = warnings;
         let Layout { name, may_touch, .. } = &*layout;
         let (name, may_touch) = (name.clone(), may_touch.clone());
         found.project = Some(Project { name, system, plant, drawn, edges, transfers, may_touch });

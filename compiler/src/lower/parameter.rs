@@ -10,10 +10,12 @@ use std::collections::HashSet;
 impl Line<'_> {
     /// Fixes all parameters of all robots; what is wrong is reported and stands as its type's first value.
     pub fn parameters(&mut self, settings: &[Setting]) {
+        let of_types: Vec<Vec<Parameter>> =
+            self.model.automata.iter().map(|a| a.parameters.clone()).collect();
         for robot in 0..self.robots.len() {
             self.unknown_parameters(robot);
-            let parameters = self.automaton(robot).parameters.clone();
-            let values = parameters.iter().map(|p| self.parameter(robot, p, settings)).collect();
+            let parameters = of_types[self.automaton_id(robot).0].iter();
+            let values = parameters.map(|p| self.parameter(robot, p, settings)).collect();
             self.values.push(values);
         }
     }
@@ -113,7 +115,9 @@ impl Line<'_> {
     }
 
     fn constant(&self, robot: usize, parameter: &Parameter) -> Vec<Value> {
-        let words = self.robots[robot].placed.constant(&parameter.name, &self.heights).unwrap_or_default();
+        let constants = &self.robots[robot].placed.device.constants;
+        let constant = constants.iter().position(|constant| constant.name == parameter.name);
+        let words: &[f64] = constant.map_or(&[], |constant| &self.constants[robot][constant]);
         match parameter.ty.scalar {
             Scalar::Point => words.chunks_exact(3).map(|p| Value::Point([p[0], p[1], p[2]])).collect(),
             Scalar::Bool => words.iter().map(|w| Value::Bool(*w != 0.0)).collect(),

@@ -10,7 +10,7 @@ use crate::ir::{
     self, Automaton, AutomatonId, Direction, Handover, Index, Instance, InterfaceId, Model, Role, RoleKind,
     System, TextPart, Value,
 };
-use crate::layout::Layout;
+use crate::layout::{self, Layout};
 use crate::parallel::{LEAST, in_parts};
 use crate::scenario::{Number, Scenario};
 use crate::source::{Span, Spanned};
@@ -40,6 +40,8 @@ pub struct Line<'a> {
     pub members: Vec<Vec<usize>>,
     /// For each robot and parameter the elements.
     pub values: Vec<Vec<Vec<Value>>>,
+    /// For each robot and constant of its device the words.
+    pub constants: Vec<Vec<Vec<f64>>>,
     pub diagnostics: Vec<Diagnostic>,
     /// The robot and the role that each proposal is for.
     asked_by: Vec<(usize, usize)>,
@@ -70,6 +72,7 @@ impl<'a> Line<'a> {
             orders_place: scenario.orders.span,
             members: Vec::new(),
             values: Vec::new(),
+            constants: Vec::new(),
             diagnostics: Vec::new(),
             asked_by: Vec::new(),
             line: None,
@@ -92,7 +95,10 @@ impl<'a> Line<'a> {
             |robot: &Robot| robot.placed.machine(&robot.object.name.value, &self.heights, robot.object.span);
         for made in in_parts(&self.robots, LEAST, |robots| robots.iter().map(machine).collect()) {
             match made {
-                Ok(machine) => all.push(machine),
+                Ok((machine, constants)) => {
+                    all.push(machine);
+                    self.constants.push(constants);
+                }
                 Err(found) => found.into_iter().for_each(|d| collect(&mut self.diagnostics, d)),
             }
         }
@@ -142,13 +148,15 @@ impl<'a> Line<'a> {
                 name: robot.object.name.value.clone(),
                 span: robot.object.name.span,
                 placed: robot.placed.clone(),
-                numbers: robot.numbers.clone(),
+                numbers: Vec::new(),
                 is_source: (offers && !accepts) || (is_arm && device.has("source")),
                 is_destination: (accepts && !offers) || (is_arm && device.has("sink")),
             }
         });
         let nodes: Vec<Node> = nodes.collect();
-        let ground: Vec<Ground> = self.robots.iter().map(|r| Ground::of(&r.placed)).collect();
+        let ground: Vec<Ground> = in_parts(&self.robots, LEAST, |robots| {
+            robots.iter().map(|robot| Ground::of(&robot.placed)).collect()
+        });
         let near = |arm: usize, passive: usize| ground[arm].is_near(ground[passive]);
         let span = Span::new(self.layout.file, 0, 0);
         let mut line = connect::Line { span, nodes, proposals: Vec::new(), kinds: self.kinds.clone() };
@@ -159,6 +167,9 @@ impl<'a> Line<'a> {
         }
         let mut report = connect::check(&line);
         if !report.is_feasible() {
+            for (node, robot) in line.nodes.iter_mut().zip(&nodes_of) {
+                node.numbers = layout::numbers(self.robots[*robot].object, &node.placed.device);
+            }
             // What machines that are cut off could have worked with, however far it is.
             let cut_off = |nodes: &[usize]| nodes.iter().map(|n| nodes_of[*n]).collect::<BTreeSet<usize>>();
             let far = Cell::new(0);
@@ -347,9 +358,10 @@ impl<'a> Line<'a> {
             meets.entry(*asked_by).or_default().push(robot_of[line.proposals[number].passive()]);
         }
         let mut instances = Vec::new();
+        let of_types: Vec<Vec<Role>> = self.model.automata.iter().map(|a| a.roles.clone()).collect();
         for robot in 0..self.robots.len() {
             let mut roles = Vec::new();
-            for (index, role) in self.automaton(robot).roles.clone().iter().enumerate() {
+            for (index, role) in of_types[self.automaton_id(robot).0].iter().enumerate() {
                 let found: Vec<usize> = match role.kind {
                     RoleKind::Takes | RoleKind::Hands => {
                         meets.get(&(robot, index)).cloned().unwrap_or_default()
@@ -379,7 +391,7 @@ impl<'a> Line<'a> {
             instances.push(Instance {
                 name: self.robots[robot].object.name.value.clone(),
                 automaton: self.automaton_id(robot),
-                parameters: self.values[robot].clone(),
+                parameters: std::mem::take(&mut self.values[robot]),
                 roles,
                 rows,
             });

@@ -14,6 +14,7 @@ use crate::point::{Axis, Point};
 use crate::solid::{Link, Shape, Solid};
 use std::cell::OnceCell;
 use std::collections::HashMap;
+use std::rc::Rc;
 
 /// A conveyor or a place, and the first vehicle that drives through it.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,8 +144,9 @@ impl Standing {
 /// What vehicles with bodies pass: one for those of the same bodies that drive on the same straights.
 fn envelopes(line: &Line) -> Vec<Envelope> {
     let mut envelopes: Vec<Envelope> = Vec::new();
+    let mut bodies_of_all = BodiesOfAll::default();
     // By the straights: bodies, and the number of the envelope.
-    let mut known: HashMap<Vec<u64>, Vec<(Vec<Solid>, usize)>> = HashMap::new();
+    let mut known: HashMap<Vec<u64>, Vec<(Rc<Bodies>, usize)>> = HashMap::new();
     for (number, machine) in line.machines.iter().enumerate() {
         let mut bodies = machine.solids();
         bodies.retain(|solid| solid.link == Link::Route);
@@ -156,8 +158,9 @@ fn envelopes(line: &Line) -> Vec<Envelope> {
             let [from, to] = ends.map(|end| [end.x, end.y, end.z]);
             [*yaw].into_iter().chain(from).chain(to).map(f64::to_bits)
         };
+        let bodies = bodies_of_all.once(bodies);
         let alike = known.entry(straights.iter().flat_map(bits).collect()).or_default();
-        match alike.iter().find(|(known, _)| *known == bodies) {
+        match alike.iter().find(|(known, _)| Rc::ptr_eq(known, &bodies)) {
             Some((_, envelope)) => envelopes[*envelope].vehicles.push(number),
             None => {
                 alike.push((bodies.clone(), envelopes.len()));
@@ -168,13 +171,48 @@ fn envelopes(line: &Line) -> Vec<Envelope> {
     envelopes
 }
 
+/// Bodies of a vehicle.
+struct Bodies {
+    solids: Vec<Solid>,
+    pieces: Vec<Piece>,
+    /// No point of a body is farther from the position of the vehicle, m.
+    reach: f64,
+}
+
+impl Bodies {
+    fn new(solids: Vec<Solid>) -> Self {
+        let pieces = solids.iter().map(|solid| Piece::new(solid.name.clone(), &solid.pose, solid.shape));
+        let pieces: Vec<Piece> = pieces.collect();
+        let reach = pieces.iter().map(|body| body.ball().middle.length() + body.ball().radius);
+        let reach = reach.fold(0.0, f64::max);
+        Self { solids, pieces, reach }
+    }
+}
+
+/// Those of all vehicles, by where they are on it.
+#[derive(Default)]
+struct BodiesOfAll(HashMap<Vec<u64>, Vec<Rc<Bodies>>>);
+
+impl BodiesOfAll {
+    /// Of vehicles that are alike the same ones.
+    fn once(&mut self, solids: Vec<Solid>) -> Rc<Bodies> {
+        let places = solids.iter().map(|solid| solid.pose.position);
+        let key = places.flat_map(|place| [place.x, place.y, place.z].map(f64::to_bits)).collect();
+        let alike = self.0.entry(key).or_default();
+        if let Some(known) = alike.iter().find(|known| known.solids == solids) {
+            return known.clone();
+        }
+        let bodies = Rc::new(Bodies::new(solids));
+        alike.push(bodies.clone());
+        bodies
+    }
+}
+
 /// What vehicles pass.
 struct Envelope {
     /// Numbers of the machines, ascending.
     vehicles: Vec<usize>,
-    bodies: Vec<Piece>,
-    /// No point of a body is farther from the position of the vehicle, m.
-    reach: f64,
+    bodies: Rc<Bodies>,
     /// In the order in which their bounds begin along the axis.
     segments: Vec<Segment>,
     axis: Axis,
@@ -196,19 +234,26 @@ struct Segment {
 }
 
 impl Envelope {
-    fn new(vehicle: usize, straights: Vec<Straight>, solids: Vec<Solid>) -> Self {
-        let bodies = solids.into_iter().map(|solid| Piece::new(solid.name, &solid.pose, solid.shape));
-        let bodies: Vec<Piece> = bodies.collect();
-        let reach = bodies.iter().map(|body| body.ball().middle.length() + body.ball().radius);
-        let reach = reach.fold(0.0, f64::max);
-        let segments = straights.into_iter().map(|(yaw, ends)| segment(&bodies, yaw, ends));
+    fn new(vehicle: usize, straights: Vec<Straight>, bodies: Rc<Bodies>) -> Self {
+        let mut at_ends: HashMap<[u64; 4], BoundingBox> = HashMap::new();
+        let mut at = |yaw: f64, end: Point| {
+            let bounds = || {
+                let pose = Frame::new(end, yaw).pose();
+                around(bodies.pieces.iter().map(|body| body.within(&pose).bounds()))
+            };
+            *at_ends.entry([yaw, end.x, end.y, end.z].map(f64::to_bits)).or_insert_with(bounds)
+        };
+        let segments = straights.into_iter().map(|(yaw, [from, to])| {
+            let bounds = at(yaw, from).with(&at(yaw, to));
+            segment(yaw, [from, to], bounds)
+        });
         let mut segments: Vec<Segment> = segments.collect();
         let whole = around(segments.iter().map(|segment| segment.bounds));
         let length = |bounds: &BoundingBox, axis| bounds.along(axis)[1] - bounds.along(axis)[0];
         let axis = if length(&whole, Axis::X) >= length(&whole, Axis::Y) { Axis::X } else { Axis::Y };
         segments.sort_by(|a, b| a.bounds.along(axis)[0].total_cmp(&b.bounds.along(axis)[0]));
         let longest = segments.iter().map(|segment| length(&segment.bounds, axis)).fold(0.0, f64::max);
-        Self { vehicles: vec![vehicle], bodies, reach, segments, axis, longest, whole }
+        Self { vehicles: vec![vehicle], bodies, segments, axis, longest, whole }
     }
 
     /// Where the vehicle is when one of its bodies meets something that stands, and the name of the body.
@@ -218,9 +263,9 @@ impl Envelope {
         }
         let mut near = self.near(&standing.bounds);
         near.find_map(|segment| {
-            segment.near(standing.ball(), self.reach).find_map(|frame| {
+            segment.near(standing.ball(), self.bodies.reach).find_map(|frame| {
                 let pose = frame.pose();
-                let body = self.bodies.iter().find(|body| standing.meets(&body.within(&pose)))?;
+                let body = self.bodies.pieces.iter().find(|body| standing.meets(&body.within(&pose)))?;
                 Some((frame.position, body.name.as_str()))
             })
         })
@@ -262,9 +307,7 @@ fn straights(machine: &Machine) -> Vec<Straight> {
     from_each.flat_map(|(from, others)| others.iter().map(move |to| (0.0, [*from, *to]))).collect()
 }
 
-fn segment(bodies: &[Piece], yaw: f64, [from, to]: [Point; 2]) -> Segment {
-    let places = [from, to].map(|end| Frame::new(end, yaw).pose());
-    let bounds = around(places.iter().flat_map(|pose| bodies.iter().map(|body| body.within(pose).bounds())));
+fn segment(yaw: f64, [from, to]: [Point; 2], bounds: BoundingBox) -> Segment {
     let length = (to - from).length();
     let ahead = (to - from).scaled(1.0 / length.max(f64::MIN_POSITIVE));
     Segment { from: Frame::new(from, yaw), ahead, length, bounds }

@@ -3,7 +3,7 @@
 use super::body::{Piece, Placed};
 use super::bounds::{BoundingBox, Chain};
 use crate::frame::Frame;
-use crate::kinematics::arm::{Arm, Joints};
+use crate::kinematics::arm::{Arm, Joints, Posture};
 use crate::kinematics::facing::Facing;
 use crate::kinematics::pose::Pose;
 use crate::machine::Machine;
@@ -19,7 +19,8 @@ const MOST_STEPS: f64 = 40.0;
 /// stands and goes, those that move with the tool.
 #[derive(Clone, Debug)]
 pub struct Moving {
-    arm: Option<Arm>,
+    /// And how it starts.
+    arm: Option<(Arm, Posture)>,
     pieces: Vec<(Link, Piece)>,
     whole: BoundingBox,
 }
@@ -66,6 +67,7 @@ impl Moving {
             }
         });
         let whole = whole.reduce(|a, b| a.with(&b))?;
+        let arm = arm.map(|arm| (arm, arm.posture(&arm.start())));
         Some(Self { arm, pieces, whole })
     }
 
@@ -76,14 +78,14 @@ impl Moving {
 
     /// Whether the tool of an arm can be brought to a place; a vehicle is taken anywhere.
     pub fn reaches(&self, goal: Point, facing: Facing) -> bool {
-        self.arm.is_none_or(|arm| arm.margin_facing(goal, facing) >= 0.0)
+        self.arm.is_none_or(|(arm, _)| arm.margin_facing(goal, facing) >= 0.0)
     }
 
     /// From goal to goal, each with the direction of the tool: all joints of an arm together, or a vehicle straight on. An
     /// arm under a torso only at the goals, and straight up or down between them. None if one is out of reach, or if there are none.
     pub fn path(&self, goals: &[(Point, Facing)]) -> Option<Path> {
         let poses = match &self.arm {
-            Some(arm) => Poses::Joints(joints(arm, goals)?),
+            Some((arm, start)) => Poses::Joints(joints(arm, start, goals)?),
             None => Poses::Points(points(goals)),
         };
         let mut bounds: Option<BoundingBox> = None;
@@ -99,7 +101,7 @@ impl Moving {
             see(&mut self.pieces.iter().map(|(link, piece)| piece.within(&frame(*link))));
         };
         match (poses, &self.arm) {
-            (Poses::Joints(all), Some(arm)) => {
+            (Poses::Joints(all), Some((arm, _))) => {
                 for joints in all {
                     let frames = arm.frames(joints);
                     placed(&|link| match link {
@@ -153,15 +155,17 @@ impl Moving {
     }
 }
 
-fn joints(arm: &Arm, goals: &[(Point, Facing)]) -> Option<Vec<Joints>> {
+fn joints(arm: &Arm, start: &Posture, goals: &[(Point, Facing)]) -> Option<Vec<Joints>> {
     let mut all: Vec<Joints> = Vec::new();
     for (goal, facing) in goals {
-        let from = all.last().copied();
-        let to = arm.solve_facing(*goal, *facing, &from.unwrap_or_else(|| arm.start()))?;
-        let from = from.unwrap_or(to);
-        let aside = Point { z: 0.0, ..arm.tool(&to) - arm.tool(&from) };
-        let is_known = !arm.has_torso() || aside.length() < 1e-6;
-        let steps = if is_known { steps_between(arm, &from, &to) } else { 1.0 };
+        let from = all.last().map(|joints| arm.posture(joints));
+        let to = arm.solve_from(*goal, *facing, from.as_ref().unwrap_or(start))?;
+        let steps = from.as_ref().map_or(1.0, |from| {
+            let aside = || Point { z: 0.0, ..arm.tool(&to) - from.tool.position };
+            let is_known = !arm.has_torso() || aside().length() < 1e-6;
+            if is_known { steps_between(arm, &from.joints, &to) } else { 1.0 }
+        });
+        let from = from.map_or(to, |from| from.joints);
         for step in 1..=steps as u32 {
             let part = f64::from(step) / steps;
             all.push(from.map(|i, value| value + part * (to[i] - value)));

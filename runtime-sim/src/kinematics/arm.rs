@@ -267,22 +267,37 @@ impl Arm {
     /// turn of its own, a part on the tool keeps its direction, if that is for the last joint to do: it turns back what the
     /// others turn.
     pub fn solve_facing(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
-        Some(self.with_part_of(from, facing, self.solver().solve(tool, facing, from)?))
+        let joints = self.solver().solve(tool, facing, from)?;
+        Some(self.with_part_of(from, || self.direction(from), facing, joints))
+    }
+
+    /// [`Self::solve_facing`] from where the tool is known.
+    pub(crate) fn solve_from(&self, tool: Point, facing: Facing, from: &Posture) -> Option<Joints> {
+        let joints = self.solver().solve(tool, facing, &from.joints)?;
+        Some(self.with_part_of(&from.joints, || direction_of(&from.tool), facing, joints))
     }
 
     /// [`Self::solve_facing`], however the arm bends: the joints nearest to `from`.
     pub(super) fn solve_near(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
-        Some(self.with_part_of(from, facing, self.solver().solve_near(tool, facing, from)?))
+        let joints = self.solver().solve_near(tool, facing, from)?;
+        Some(self.with_part_of(from, || self.direction(from), facing, joints))
     }
 
     /// The same joints but for the last one, which gives a part the direction that it has to have, if that is for it to do.
-    fn with_part_of(&self, from: &Joints, facing: Facing, joints: Joints) -> Joints {
+    /// `direction` is the one that it has at `from`.
+    fn with_part_of(
+        &self,
+        from: &Joints,
+        direction: impl FnOnce() -> f64,
+        facing: Facing,
+        joints: Joints,
+    ) -> Joints {
         if !self.solver().keeps_direction() {
             return joints;
         }
         Self::within_limits(match facing {
             Facing::Oriented { x, y } => self.with_direction(from, libm::atan2(y, x), joints),
-            Facing::Down | Facing::Level { .. } => self.with_direction_of(from, joints),
+            Facing::Down | Facing::Level { .. } => self.with_direction(from, direction(), joints),
         })
     }
 
@@ -303,12 +318,7 @@ impl Arm {
         joints.map(|i, value| if i == last { nearest_equivalent(value + off, value) } else { value })
     }
 
-    /// The same place of the tool, and a part on it with the direction that it has at `from`.
-    fn with_direction_of(&self, from: &Joints, joints: Joints) -> Joints {
-        self.with_direction(from, self.direction(from), joints)
-    }
-
-    /// The same, with that direction.
+    /// The same place of the tool, and a part on it with this direction.
     fn with_direction(&self, from: &Joints, direction: f64, joints: Joints) -> Joints {
         let last = joints.len() - 1;
         // The last joint's axis points down.
