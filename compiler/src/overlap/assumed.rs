@@ -169,6 +169,7 @@ impl<'a> Assumed<'a> {
     }
 
     fn candidates(&self, ty: Scalar) -> Vec<Value> {
+        let first = |count: usize| (0..count.min(MOST_CANDIDATES) as i32).map(Value::Int).collect();
         let mut all: Vec<Value> = match ty {
             Scalar::Bool => vec![Value::Bool(false), Value::Bool(true)],
             Scalar::Int { lo, hi } => {
@@ -181,10 +182,8 @@ impl<'a> Assumed<'a> {
                 .filter(|ms| *ms >= 0)
                 .map(Value::Int)
                 .collect(),
-            Scalar::Enum(id) => {
-                (0..self.system.model.enums[id.0].members.len() as i32).map(Value::Int).collect()
-            }
-            Scalar::Ref(id) => (0..self.system.members[id.0].len() as i32).map(Value::Int).collect(),
+            Scalar::Enum(id) => first(self.system.model.enums[id.0].members.len()),
+            Scalar::Ref(id) => first(self.system.members[id.0].len()),
             Scalar::Real => self.reals.iter().copied().map(Value::Real).collect(),
             Scalar::Point => self.reals.iter().map(|real| Value::Point([*real; 3])).collect(),
         };
