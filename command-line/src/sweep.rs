@@ -91,29 +91,31 @@ fn whole(plan: &Plan, options: &SweepOptions) -> Status {
         Err(refusal) => return not_planned(&options.table, &refusal),
     };
     // Points of which all runs are known: a precision may be reached before the last replication.
-    let closed = AtomicUsize::new(0);
-    let mut next = 0;
-    let indices = std::iter::from_fn(|| {
-        let first = closed.load(Ordering::Relaxed).saturating_mul(plan.design.replications as usize);
-        let index = first.max(next);
-        next = index + 1;
-        (index < plan.runs).then_some(index)
-    });
+    let closed = &AtomicUsize::new(0);
+    let indices = || {
+        let mut next = 0;
+        std::iter::from_fn(move || {
+            let first = closed.load(Ordering::Relaxed).saturating_mul(plan.design.replications as usize);
+            let index = first.max(next);
+            next = index + 1;
+            (index < plan.runs).then_some(index)
+        })
+    };
     let is_text = options.table.format == TableFormat::Text;
     let mut progress = Progress::new(plan.runs, options.table.quiet);
+    let together = Together::new(plan, plan.runs, jobs(options));
+    let notice = if is_text && !options.table.quiet { Notice::Compiling } else { Notice::None };
     each_run(
-        plan,
-        options,
-        is_text,
+        &together,
+        notice,
         indices,
         |_| true,
-        |number, outcome, made| {
+        |number, outcome| {
             progress.clear();
-            // Of a point that is closed, runs may have begun that it does not need.
-            if number.point == closed.load(Ordering::Relaxed) && rows.take(number, outcome) {
+            if rows.take(number, outcome) {
                 closed.store(number.point + 1, Ordering::Relaxed);
             }
-            progress.show(made);
+            progress.show(together.made());
         },
     );
     progress.clear();
@@ -159,36 +161,47 @@ fn of_part(plan: &Plan, part: Part, options: &SweepOptions) -> Status {
         Err(text) => return not_planned(&options.table, &Refusal::Said(text)),
     }
     let mut status = Status::Done;
-    let mut progress = Progress::new(part.runs(&plan.design).count(), options.table.quiet);
-    let is_asked = |index| part.has(&plan.design, index);
-    each_run(plan, options, false, part.runs(&plan.design), is_asked, |number, outcome, made| {
+    let runs = part.runs(&plan.design).count();
+    let mut progress = Progress::new(runs, options.table.quiet);
+    let together = Together::new(plan, runs, jobs(options));
+    let (indices, is_asked) = (|| part.runs(&plan.design), |index| part.has(&plan.design, index));
+    each_run(&together, Notice::None, indices, is_asked, |number, outcome| {
         status = rows::worse(status, outcome.status);
         progress.clear();
         say!("{}", Value::Object(outcome.to_line(&plan.design, number)));
-        progress.show(made);
+        progress.show(together.made());
     });
     progress.clear();
     status
 }
 
-/// Runs with these indices, on all processors; `take` sees what came of them in their order, and how many have been made by
-/// then. `is_asked` says which runs will be among them.
-fn each_run(
-    plan: &Plan,
-    options: &SweepOptions,
-    is_told: bool,
-    indices: impl Iterator<Item = usize> + Send,
+/// Runs with these indices, on all processors; `take` sees what came of them in their order. `is_asked` says which are
+/// among them.
+fn each_run<I: Iterator<Item = usize> + Send>(
+    together: &Together,
+    notice: Notice,
+    indices: impl Fn() -> I,
     is_asked: impl Fn(usize) -> bool + Sync,
-    mut take: impl FnMut(RunNumber, Outcome, usize),
+    mut take: impl FnMut(RunNumber, Outcome),
 ) {
-    let jobs = options.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-    let notice = if is_told && !options.table.quiet { Notice::Compiling } else { Notice::None };
-    let together = Together::new(plan);
-    let job = |index| {
-        let number = plan.design.run(index);
-        (number, together.outcome(number, &is_asked, notice))
-    };
-    in_order::each(indices, jobs, job, |(number, outcome)| take(number, outcome, together.made()));
+    let begun = indices().filter(|index| together.begin(*index));
+    let mut turns = indices();
+    let mut turn = turns.next();
+    in_order::each(
+        begun,
+        together.jobs,
+        |index| together.make(index, &is_asked, notice),
+        |()| {
+            while let Some((index, outcome)) = turn.and_then(|index| Some((index, together.take(index)?))) {
+                take(together.plan.design.run(index), outcome);
+                turn = turns.next();
+            }
+        },
+    );
+}
+
+fn jobs(options: &SweepOptions) -> usize {
+    options.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get)
 }
 
 fn not_planned(options: &TableOptions, refusal: &Refusal) -> Status {

@@ -16,8 +16,12 @@ pub fn in_parts<T: Sync, R: Send>(items: &[T], least: usize, work: impl Fn(&[T])
     divided(items, items.len().div_ceil(threads).max(least).max(1), work)
 }
 
-/// What both give; the first of them works in a thread of its own if the system gives one.
-pub fn both<A: Send, B>(first: impl Fn() -> A + Sync, second: impl FnOnce() -> B) -> (A, B) {
+/// What both give. With so many machines or pairs that it is worth while, the first of them works in a thread of its own,
+/// if the system gives one.
+pub fn both<A: Send, B>(items: usize, first: impl Fn() -> A + Sync, second: impl FnOnce() -> B) -> (A, B) {
+    if items < LEAST {
+        return (first(), second());
+    }
     thread::scope(|scope| {
         let first = &first;
         let begun = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, first);
@@ -69,15 +73,17 @@ mod tests {
 
     #[test]
     fn each_of_both_gives_what_it_gives_alone() {
-        let mut second = 0;
-        assert_eq!(both(|| 1, || second += 2), (1, ()));
-        assert_eq!(second, 2);
+        for items in [1, LEAST] {
+            let mut second = 0;
+            assert_eq!(both(items, || 1, || second += 2), (1, ()));
+            assert_eq!(second, 2);
+        }
     }
 
     #[test]
     #[should_panic(expected = "of the first")]
     fn a_panic_of_the_first_is_one_of_the_whole() {
-        both(|| panic!("of the first"), || 1);
+        both(LEAST, || panic!("of the first"), || 1);
     }
 
     #[test]

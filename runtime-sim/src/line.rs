@@ -85,7 +85,7 @@ pub struct State {
 
 impl State {
     /// Whether reports say the same of both.
-    pub fn has_name_of(&self, other: &Self) -> bool {
+    pub(crate) fn is_reported_as(&self, other: &Self) -> bool {
         let Self { name, working, awaits, reads: _, reads_while: _, timers: _ } = self;
         (name, working, awaits) == (&other.name, &other.working, &other.awaits)
     }
@@ -309,13 +309,13 @@ impl Line {
         let Self { scan_ms, kinds, machines, obstacles, may_touch, scenario, io_delay } = self;
         let machines = machines.iter().zip(&other.machines);
         self.machines.len() == other.machines.len()
-            && machines.into_iter().all(|(machine, other)| machine.is_machine_of(other))
+            && machines.into_iter().all(|(machine, other)| machine.is_same_device(other))
             && (scan_ms, kinds, obstacles) == (&other.scan_ms, &other.kinds, &other.obstacles)
             && (may_touch, scenario, io_delay) == (&other.may_touch, &other.scenario, &other.io_delay)
     }
 
     /// Whether controllers wait for the same on both.
-    pub fn waits_as(&self, other: &Self) -> bool {
+    pub(crate) fn waits_for_same(&self, other: &Self) -> bool {
         let waits = |machine: &Machine, other: &Machine| {
             machine.states == other.states && machine.monitor == other.monitor
         };

@@ -75,13 +75,13 @@ impl Misfit {
 
 impl Machine {
     /// Whether both are the same device; what their controllers wait for may differ.
-    pub fn is_machine_of(&self, other: &Self) -> bool {
+    pub(crate) fn is_same_device(&self, other: &Self) -> bool {
         let Self { name, pose, parts, wiring, states, monitor, visits } = self;
         let of_states = states.iter().zip(&other.states);
         (name, pose, parts, wiring) == (&other.name, &other.pose, &other.parts, &other.wiring)
             && (visits, states.len()) == (&other.visits, other.states.len())
-            && of_states.into_iter().all(|(state, other)| state.has_name_of(other))
-            && monitor.has_words_of(&other.monitor)
+            && of_states.into_iter().all(|(state, other)| state.is_reported_as(other))
+            && monitor.has_same_words(&other.monitor)
     }
 
     /// The first thing that is wrong with its parts or its wiring.

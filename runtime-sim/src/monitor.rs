@@ -31,7 +31,7 @@ pub const ALARM_WORDS: usize = 5;
 
 impl Monitor {
     /// Whether the same words say the same; limits of times may differ.
-    pub fn has_words_of(&self, other: &Self) -> bool {
+    pub(crate) fn has_same_words(&self, other: &Self) -> bool {
         let Self { stopped, counters, alarms, panel } = self;
         let words = |counters: &[Counter]| counters.iter().map(|counter| counter.word).collect::<Vec<_>>();
         (stopped, alarms, panel) == (&other.stopped, &other.alarms, &other.panel)

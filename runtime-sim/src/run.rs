@@ -113,7 +113,8 @@ pub fn record_again(
 }
 
 /// The runs of a line and of others that have its plant ([`Line::has_plant_of`]), each as [`run_again`] makes it. As long
-/// as their controllers do the same, scan by scan, they are one run. The reports are in the order of the lines.
+/// as their controllers do the same, scan by scan, they are one run. The reports are in the order of the lines; an error is
+/// that of one of them, and there is no report of any.
 pub fn run_together<'a>(
     line: &'a Line,
     controllers: &'a mut dyn Controllers,

@@ -37,34 +37,25 @@ impl Part {
         self.of
     }
 
-    /// The indices of its runs, in their order. Of each point every part has as many as another one, but for one, if there
-    /// are replications for all parts: a replication of all points is in one part. Else parts differ by one run at most.
+    /// The indices of its runs, of those of the sweep, in their order. Parts differ by one run at most.
     pub fn runs(self, design: &Design) -> impl Iterator<Item = usize> {
-        let [lists, length] = lists(design, self.of);
-        let deals = 0..length.div_ceil(self.of);
-        let of_list =
-            deals.map(move |deal| deal * self.of + (self.number + self.of - turn(deal, self.of)) % self.of);
-        let of_list = of_list.filter(move |card| *card < length);
-        (0..lists).flat_map(move |list| of_list.clone().map(move |card| list * length + card))
+        (0..design.runs().unwrap_or(0)).filter(move |run| self.has(design, *run))
     }
 
     pub fn has(self, design: &Design, run: usize) -> bool {
         Self::having(design, run, self.of) == self.number
     }
 
-    /// Number, from 0, of the part that has this run.
+    /// Number, from 0, of the part that has this run. Replications are given to parts with all their points, which are made
+    /// together, as many to each part; the runs of those that are left one by one.
     pub fn having(design: &Design, run: usize, of: usize) -> usize {
-        let [_, length] = lists(design, of);
-        let card = run % length.max(1);
-        (card % of + turn(card / of, of)) % of
+        let replications = (design.replications as usize).max(1);
+        let left = replications % of;
+        let whole = replications - left;
+        let [point, replication] = [run / replications, run % replications];
+        let number = if replication < whole { replication } else { point * left + replication - whole };
+        (number % of + turn(number / of, of)) % of
     }
-}
-
-/// The runs as lists one after the other, each of which is dealt out in the same order: how many there are, and their
-/// length.
-fn lists(design: &Design, parts: usize) -> [usize; 2] {
-    let (runs, replications) = (design.runs().unwrap_or(0), design.replications as usize);
-    if replications >= parts { [runs / replications, replications] } else { [1, runs] }
 }
 
 impl fmt::Display for Part {
@@ -73,16 +64,16 @@ impl fmt::Display for Part {
     }
 }
 
-/// By how much as many runs as there are parts are turned before they are dealt out, a run to each part. Were they not, a
+/// By how much as many runs as there are parts are turned before they are given out, a run to each part. Were they not, a
 /// part would get the same value of an axis again and again, maybe the slowest.
-fn turn(deal: usize, of: usize) -> usize {
-    (Random::new(deal as u64).next_u64() % of as u64) as usize
+fn turn(round: usize, of: usize) -> usize {
+    (Random::new(round as u64).next_u64() % of as u64) as usize
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::axis::Axis;
-    use super::super::design::Asked;
+    use super::super::design::{Asked, RunNumber};
     use super::*;
 
     #[test]
@@ -114,31 +105,33 @@ mod tests {
 
     #[test]
     fn each_run_is_in_exactly_one_part() {
-        for (values, replications, of) in [
+        let all = [
             (1, 1, 3),
             (7, 1, 1),
             (7, 1, 3),
             (50, 2, 7),
             (5, 1, 9),
             (16, 4, 8),
-            (5, 20, 7),
+            (18, 9, 7),
             (3, 8, 8),
             (1, 9, 4),
-        ] {
+        ];
+        for (values, replications, of) in all {
             let design = design(values, replications);
             let count = values * replications as usize;
-            let mut dealt = vec![0; count];
+            let mut given = vec![0; count];
             for (number, runs) in runs(&design, of).into_iter().enumerate() {
                 assert!(runs.is_sorted());
-                let lists = if replications as usize >= of { values } else { 1 };
-                let few = lists * (count / lists / of);
-                assert!((few..=few + lists).contains(&runs.len()), "{number} of {of}: {runs:?}");
+                assert!(
+                    (count / of..=count.div_ceil(of)).contains(&runs.len()),
+                    "{number} of {of}: {runs:?}"
+                );
                 for run in runs {
-                    dealt[run] += 1;
+                    given[run] += 1;
                     assert_eq!(Part::having(&design, run, of), number);
                 }
             }
-            assert!(dealt.iter().all(|times| *times == 1), "{count} in {of}: {dealt:?}");
+            assert!(given.iter().all(|times| *times == 1), "{count} in {of}: {given:?}");
         }
     }
 
@@ -146,9 +139,11 @@ mod tests {
     fn a_replication_of_all_points_is_in_one_part() {
         let design = design(6, 20);
         for runs in runs(&design, 8) {
-            let replications: Vec<u32> = runs.iter().map(|run| design.run(*run).replication).collect();
-            let of_first = replications.iter().take(runs.len() / 6).copied().collect::<Vec<_>>();
-            assert_eq!(replications, of_first.repeat(6));
+            let whole: Vec<_> =
+                runs.into_iter().map(|run| design.run(run)).filter(|run| run.replication < 16).collect();
+            assert_eq!(whole.len(), 2 * 6);
+            let has = |point, replication| whole.contains(&RunNumber { point, replication });
+            assert!(whole.iter().all(|run| (0..6).all(|point| has(point, run.replication))), "{whole:?}");
         }
     }
 

@@ -8,7 +8,6 @@ use super::super::titles;
 use super::axis::Axis;
 use super::design::{Asked, Design, Point};
 use super::distinct;
-use super::outcome::Outcome;
 use super::precision::{self, Precision};
 use super::together;
 use super::warm_up::WarmUp;
@@ -22,7 +21,7 @@ use runtime_sim::memory::Memory;
 use std::collections::VecDeque;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 pub struct Plan {
     pub design: Design,
@@ -49,8 +48,8 @@ pub struct Line {
     /// Its own, or that of its file.
     name: String,
     library: Mutex<Option<Result<SharedLibrary, String>>>,
-    /// The lines of the points that were made last, or what is wrong with them: those of the replications which follow, and
-    /// of runs that are made together.
+    /// The lines of the points that were asked for last, or what is wrong with them, the last one first: those of the
+    /// replications which follow, and of runs that are made together.
     last_made: Mutex<VecDeque<(Point, MadeOrWrong)>>,
     /// What runs of this layout have found; one for each that continues at the same time, beside the first one.
     memories: Mutex<Vec<Memory>>,
@@ -186,8 +185,6 @@ pub struct Made {
     pub project: Project,
     /// The values of its controllers, as these read them.
     pub parameters: String,
-    /// What came of a run, if nothing in it is drawn: all replications are this run.
-    pub only: OnceLock<Outcome>,
 }
 
 type MadeOrWrong = Result<Arc<Made>, Vec<Diagnostic>>;
@@ -238,20 +235,28 @@ impl Line {
     /// The line of a point, with the seed of its scenario and devices that answer at once.
     pub fn made(&self, point: &Point, order: Option<u64>) -> MadeOrWrong {
         let last_made = || self.last_made.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, made)) = last_made().iter().find(|(of, _)| of == point) {
-            return made.clone();
+        let known = {
+            let mut last_made = last_made();
+            let place = last_made.iter().position(|(of, _)| of == point);
+            place.and_then(|place| last_made.remove(place)).map(|known| {
+                last_made.push_front(known.clone());
+                known.1
+            })
+        };
+        if let Some(made) = known {
+            return made;
         }
         let settings: Vec<Setting> =
             self.settings.iter().zip(&point.values).map(|(of_axis, &value)| of_axis[value].clone()).collect();
         let compiled = self.draft.line(&settings, order);
         let made = compiled.project.ok_or(compiled.diagnostics).map(|project| {
             let parameters = parameters_text(&project.system);
-            Arc::new(Made { project, parameters, only: OnceLock::new() })
+            Arc::new(Made { project, parameters })
         });
         let machines = made.as_ref().map_or(1, |made| made.project.plant.machines.len());
         let mut last_made = last_made();
         last_made.push_front((point.clone(), made.clone()));
-        last_made.truncate(together::most_runs(machines));
+        last_made.truncate(2 * together::most_runs(machines) - 1);
         made
     }
 

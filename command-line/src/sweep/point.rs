@@ -20,14 +20,22 @@ use serde_json::json;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-/// What came of a run, and of the same replication of other points, which have its plant, by their numbers. Whatever went
-/// wrong is in it; then nothing comes of the others.
-pub fn outcomes(
-    plan: &Plan,
-    number: RunNumber,
-    others: &[usize],
-    notice: Notice,
-) -> (Outcome, Vec<(usize, Outcome)>) {
+/// What came of runs of one replication, by the numbers of their points.
+pub struct Ran {
+    pub outcomes: Vec<(usize, Outcome)>,
+    /// Other replications may come to something else.
+    pub is_drawn: bool,
+}
+
+impl Ran {
+    pub fn has(&self, point: usize) -> bool {
+        self.outcomes.iter().any(|(of, _)| *of == point)
+    }
+}
+
+/// What came of a run, and of the same replication of other points, which have its plant. Whatever went wrong is in it;
+/// then nothing comes of the others.
+pub fn outcomes(plan: &Plan, number: RunNumber, others: &[usize], notice: Notice) -> Ran {
     let point = plan.design.point(number.point);
     let line = &plan.lines[point.layout];
     let runs = |others| catch_unwind(AssertUnwindSafe(|| together(plan, number, others, notice)));
@@ -36,8 +44,9 @@ pub fn outcomes(
         made = runs(&[]);
     }
     let mut outcome = Outcome::new(line.draft.orders(), line.draft.items());
+    let mut is_drawn = false;
     match made {
-        Ok(Ok(outcomes)) => return outcomes,
+        Ok(Ok(ran)) => return ran,
         Ok(Err(End::Refused(found))) => {
             outcome.reason = refusal(&found);
             outcome.diagnostics = print::diagnostics_json(&line.sources, &found);
@@ -50,13 +59,15 @@ pub fn outcomes(
         Ok(Err(End::NoReport(text))) => {
             outcome.reason = beginning(&text);
             outcome.status = Status::NotReached;
+            is_drawn = true;
         }
         Err(_) => {
             outcome.reason = "bug: autogen panicked".into();
             outcome.status = Status::Bug;
+            is_drawn = true;
         }
     }
-    (outcome, Vec::new())
+    Ran { outcomes: vec![(number.point, outcome)], is_drawn }
 }
 
 enum End {
@@ -115,25 +126,15 @@ fn ready(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result
     Ok(Ready { made, plant, controllers })
 }
 
-/// The same. Where nothing is drawn, what came of a run is known of all its replications.
-fn together(
-    plan: &Plan,
-    number: RunNumber,
-    others: &[usize],
-    notice: Notice,
-) -> Result<(Outcome, Vec<(usize, Outcome)>), End> {
+fn together(plan: &Plan, number: RunNumber, others: &[usize], notice: Notice) -> Result<Ran, End> {
     let point = plan.design.point(number.point);
     let line = &plan.lines[point.layout];
-    let first = ready(plan, &point, number.replication, notice)?;
-    if let Some(only) = first.made.only.get() {
-        return Ok((only.clone(), Vec::new()));
-    }
+    let Ready { made, plant, mut controllers } = ready(plan, &point, number.replication, notice)?;
     let others = others.iter().map(|other| {
         let ready = ready(plan, &plan.design.point(*other), number.replication, notice)?;
         Ok((*other, ready))
     });
     let mut others = others.collect::<Result<Vec<_>, End>>()?;
-    let Ready { made, plant, mut controllers } = first;
     let beside = others.iter_mut().map(|(_, other)| {
         let controllers: &mut dyn scan::Controllers = &mut other.controllers;
         (&other.plant, controllers)
@@ -145,16 +146,12 @@ fn together(
         let reason = reason_of_run(&report, &made.project.system, &line.shown);
         let mut outcome = Outcome::new(line.draft.orders(), line.draft.items());
         outcome.reported(&report, reason, plan.design.warm_up);
-        if !made.project.differs(&plant) {
-            made.only.get_or_init(|| outcome.clone());
-        }
         outcome
     };
-    let mut reports = reports.into_iter();
-    let first = reports.next().ok_or_else(|| End::NoReport("bug: a run has no report".into()))?;
-    let of_others =
-        others.iter().zip(reports).map(|((point, other), report)| (*point, outcome(&other.made, report)));
-    Ok((outcome(&made, first), of_others.collect()))
+    let all = std::iter::once((number.point, &made));
+    let all = all.chain(others.iter().map(|(point, other)| (*point, &other.made)));
+    let outcomes = all.zip(reports).map(|((point, made), report)| (point, outcome(made, report)));
+    Ok(Ran { outcomes: outcomes.collect(), is_drawn: made.project.differs(&plant) })
 }
 
 /// All diagnostics in a line.

@@ -9,6 +9,8 @@ pub struct Progress {
     all: usize,
     is_wanted: bool,
     is_shown: bool,
+    /// Some number has been shown.
+    has_shown: bool,
     last: Instant,
 }
 
@@ -19,16 +21,16 @@ impl Progress {
     /// Shows nothing if it is not wanted, or if nobody sees it.
     pub fn new(all: usize, quiet: bool) -> Self {
         let is_wanted = !quiet && io::stderr().is_terminal();
-        Self { all, is_wanted, is_shown: false, last: Instant::now() }
+        Self { all, is_wanted, is_shown: false, has_shown: false, last: Instant::now() }
     }
 
     /// So many are made.
     pub fn show(&mut self, made: usize) {
         // Rows on the same terminal would push it on, a line for each.
-        if self.is_wanted && (self.last.elapsed() >= PAUSE || made == 1) {
+        if self.is_wanted && (self.last.elapsed() >= PAUSE || !self.has_shown) {
             print::err_styled(&format!("{made} of {}", self.all));
             self.last = Instant::now();
-            self.is_shown = true;
+            (self.is_shown, self.has_shown) = (true, true);
         }
     }
 

@@ -89,6 +89,38 @@ fn points_have_the_same_seeds_and_are_compared_run_by_run() {
     assert!(printed(&output).lines().next().is_some_and(|l| l.contains("  difference      +-  pairs  ")));
 }
 
+/// More than are made together, of which some do the same, some are refused, and some have another plant.
+#[test]
+fn points_come_to_what_each_comes_to_alone() {
+    let folder = folder("sweep_together");
+    put(&folder, "one.json", &scenario(3));
+    let layout = example("ariac2021/default.json");
+    let sweep = |capacities: &str, patiences: &str, speeds: &str, delays: &str, jobs: &str| {
+        let settings =
+            [("agv.capacity", capacities), ("conveyor.patience", patiences), ("gantry.speed", speeds)];
+        let settings = settings.map(|(name, values)| format!("{name}={values}"));
+        let [capacity, patience, speed] = settings.each_ref().map(String::as_str);
+        let first = ["sweep", &layout, "--scenario", "one.json", "--set", capacity, "--set", patience];
+        let then = ["--set", speed, "--io-delay", delays, "--replications", "3"];
+        let last = ["--jobs", jobs, "--format", "jsonl"];
+        let output = autogen(&folder, &[&first[..], &then[..], &last[..]].concat());
+        printed(&output)
+    };
+    let [capacities, patiences, speeds, delays] = ["1,2,13,3,4", "0.05,60,61", "1,0.7", "0,random:9"];
+    let all = sweep(capacities, patiences, speeds, delays, "1");
+    assert_eq!(all.lines().count(), 60);
+    assert!(all.contains("E0") && all.contains("all orders made"), "{all}");
+    for jobs in ["2", "7"] {
+        assert_eq!(sweep(capacities, patiences, speeds, delays, jobs), all, "{jobs} jobs");
+    }
+    for (capacity, patience, speed, delay) in
+        [("1", "60", "1", "0"), ("3", "61", "1", "random:9"), ("4", "60", "0.7", "0"), ("13", "60", "1", "0")]
+    {
+        let alone = sweep(capacity, patience, speed, delay, "1");
+        assert!(all.contains(alone.trim_end()), "{alone}");
+    }
+}
+
 #[test]
 fn replications_stop_at_the_precision_whatever_the_jobs_are() {
     let folder = folder("sweep_precision");

@@ -43,7 +43,7 @@ impl<'a> Places<'a> {
             let axes = |is_one: &dyn Fn([f64; 2]) -> bool| -> usize {
                 (0..3).map(|axis| usize::from(is_one(region[axis])) << axis).sum()
             };
-            // Also those that differ by the sign of a zero.
+            // Axes along which corners differ, if only by the sign of a zero.
             let differs = axes(&|[low, high]| low.to_bits() != high.to_bits());
             let mut corners = [self.corner(region, 0, facing); 8];
             for number in 1..8 {

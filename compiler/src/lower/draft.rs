@@ -294,7 +294,8 @@ impl Parts {
             let comes = collected::comes_onto(&plant, &edges, &transfers);
             (overlaps, out_of_reach, short::lanes(&layout, &plant, comes))
         };
-        let ((overlaps, out_of_reach, short), warnings) = both(of_plant, || {
+        let machines = plant.machines.len();
+        let ((overlaps, out_of_reach, short), warnings) = both(machines, of_plant, || {
             if let Some(verdict) = &mut found.verdict {
                 verdict.add_conveyors(&plant, &edges, &transfers);
             }

@@ -30,7 +30,7 @@ enum At {
 }
 
 impl<'a> Branch<'a> {
-    /// Before scan 0, with the plant of the first line.
+    /// Before scan 0, with the plant of the first line; the others have it too. An error says why the line cannot be run.
     pub fn new(
         line: &'a Line,
         controllers: &'a mut dyn Controllers,
@@ -38,6 +38,7 @@ impl<'a> Branch<'a> {
         stepping: Stepping,
         memory: &mut Memory,
     ) -> Result<Self, String> {
+        debug_assert!(others.iter().all(|(other, _)| line.has_plant_of(other)), "lines with other plants");
         let simulation = Simulation::new(line, controllers, stepping, memory)?;
         let others = (1..).zip(others);
         let others = others.map(|(number, (line, controllers))| Variant::new(number, line, controllers));
@@ -58,8 +59,8 @@ impl<'a> Branch<'a> {
                 self.at = At::Executed(self.simulation.begin(&mut self.variants)?);
             }
             if let At::Executed(mut begun) = self.at {
-                let apart = self.variants.part(Variant::gave_same);
-                branches.extend(apart.map(|variants| self.beside(variants)));
+                let apart = self.variants.split_off(Variant::gave_same);
+                branches.extend(apart.map(|variants| self.clone_for(variants)));
                 self.simulation.take(&mut begun, &self.variants.first)?;
                 self.at = At::Taken(begun);
             }
@@ -68,8 +69,8 @@ impl<'a> Branch<'a> {
                 let timed = is_timed(&self.variants.waits);
                 let is_like =
                     |other: &Variant| other.waits.as_ref().is_none_or(|waits| is_timed(waits) == timed);
-                let apart = self.variants.part(|_, other| is_like(other));
-                branches.extend(apart.map(|variants| self.beside(variants)));
+                let apart = self.variants.split_off(|_, other| is_like(other));
+                branches.extend(apart.map(|variants| self.clone_for(variants)));
                 let recorders = recorders.as_deref_mut();
                 let end = self.simulation.proceed(begun, &self.variants, memory, observer, recorders)?;
                 if let Some(end) = end {
@@ -81,7 +82,7 @@ impl<'a> Branch<'a> {
     }
 
     /// The same for other variants, from here on.
-    fn beside(&self, variants: Alike<'a>) -> Self {
+    fn clone_for(&self, variants: Alike<'a>) -> Self {
         Self { simulation: self.simulation.clone(), variants, at: self.at }
     }
 

@@ -274,7 +274,7 @@ impl<'a> Simulation<'a> {
             self.progress.is_alive(next - 1);
         }
         if is_executed || arrived != Arrived::Nothing || scan == 0 {
-            self.account(is_executed, variant, recorders);
+            self.account(&begun, variant, recorders);
         }
         self.scan = next;
         self.count_events();
@@ -282,7 +282,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// What each machine does from this scan on.
-    fn account(&mut self, is_executed: bool, variant: &Variant, mut recorders: Option<&mut Recorders>) {
+    fn account(&mut self, begun: &Begun, variant: &Variant, mut recorders: Option<&mut Recorders>) {
         let (line, scan) = (self.line, self.scan);
         for (machine, outputs) in variant.outputs.iter().enumerate() {
             let is_stopped = line.machines[machine].monitor.is_stopped(&variant.trace);
@@ -300,7 +300,7 @@ impl<'a> Simulation<'a> {
                 let stay =
                     Stay { scan, state: self.states[machine], counted: activity.counted(line, machine) };
                 recorders.history.stay(machine, stay);
-                if let Some(word) = self.stays.get(machine).filter(|_| is_executed) {
+                if let Some(word) = self.stays.get(machine).filter(|_| begun.is_executed) {
                     recorders.history.time(machine, stay, self.changes.stay(*word) as u64);
                 }
             }

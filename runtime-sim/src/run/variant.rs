@@ -11,11 +11,13 @@ pub struct Variant<'a> {
     pub number: usize,
     line: &'a Line,
     pub controllers: &'a mut dyn Controllers,
-    /// None if they wait for the same as the first ones.
+    /// None if they wait for the same as the first ones of [`Alike`].
     pub waits: Option<Waits<'a>>,
+    /// An image for each machine, as it was published last.
     pub outputs: Vec<Vec<f64>>,
     /// Words of each image of outputs.
     words: Vec<usize>,
+    /// What [`Controllers::trace`] gave; empty before the first scan.
     pub trace: Vec<f64>,
     pub answer: SystemOutputs,
 }
@@ -36,7 +38,7 @@ impl<'a> Variant<'a> {
         }
     }
 
-    /// They execute a scan that comes so many after their last one.
+    /// They execute a scan that comes so many after their last one. An error says that they changed the size of an image.
     pub fn execute(
         &mut self,
         scan: u64,
@@ -78,7 +80,7 @@ pub struct Alike<'a> {
 impl<'a> Alike<'a> {
     pub fn new(first: Variant<'a>, mut others: Vec<Variant<'a>>) -> Self {
         for other in &mut others {
-            let waits_for_same = other.line.waits_as(first.line);
+            let waits_for_same = other.line.waits_for_same(first.line);
             other.waits = (!waits_for_same).then(|| Waits::new(other.line));
         }
         Self { waits: Waits::new(first.line), first, others }
@@ -109,8 +111,8 @@ impl<'a> Alike<'a> {
         self.iter_mut().try_for_each(|variant| variant.execute(scan, scans, system, inputs))
     }
 
-    /// Takes out those of the others that are not like the first one.
-    pub fn part(&mut self, is_like: impl Fn(&Variant<'a>, &Variant<'a>) -> bool) -> Option<Self> {
+    /// Takes out those of the others that are not like the first one; none if all are.
+    pub fn split_off(&mut self, is_like: impl Fn(&Variant<'a>, &Variant<'a>) -> bool) -> Option<Self> {
         let first = &self.first;
         if self.others.iter().all(|other| is_like(first, other)) {
             return None;
