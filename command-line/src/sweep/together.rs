@@ -36,6 +36,8 @@ pub struct Together<'a> {
 struct Runs {
     /// Of those that are asked for, so many have not been begun.
     left: usize,
+    /// All before this one were taken, or nobody will ask for them.
+    taken: usize,
     /// All before this one were begun, or will never be.
     next: usize,
     /// Those from there on that were begun too.
@@ -44,6 +46,7 @@ struct Runs {
     known: BTreeMap<usize, Outcome>,
     /// By point: what comes of each of its replications.
     same: BTreeMap<usize, Outcome>,
+    /// So many are known, and those of `same` that were taken.
     made: usize,
 }
 
@@ -63,20 +66,18 @@ impl<'a> Together<'a> {
         self.runs().made
     }
 
-    /// Begins a run, with a greater index than the one before; false, if it was begun with an earlier one.
+    /// Begins a run, with a greater index than the one before; false, if it was begun with an earlier one, or what comes of
+    /// it is known.
     pub fn begin(&self, index: usize) -> bool {
-        self.runs().begin(index)
+        self.runs().begin(index, self.plan.design.run(index).point)
     }
 
     /// Makes a run that was begun, and others with it. `is_asked` says of which, by their indices, anybody will ask.
     pub fn make(&self, index: usize, is_asked: impl Fn(usize) -> bool, notice: Notice) {
         let number = self.plan.design.run(index);
-        let mut runs = self.runs();
-        if runs.same.contains_key(&number.point) {
-            runs.made += 1;
+        if self.runs().same.contains_key(&number.point) {
             return;
         }
-        drop(runs);
         // What panics here does so again where it is said.
         let others = catch_unwind(AssertUnwindSafe(|| self.begin_others(number, is_asked)));
         let others = others.unwrap_or_default();
@@ -92,8 +93,8 @@ impl<'a> Together<'a> {
     fn keep(&self, replication: u32, ran: Ran) {
         let mut runs = self.runs();
         for (point, outcome) in ran.outcomes {
-            runs.made += 1;
             if ran.is_drawn {
+                runs.made += 1;
                 runs.known.insert(self.plan.design.index(RunNumber { point, replication }), outcome);
             } else {
                 runs.same.insert(point, outcome);
@@ -138,18 +139,20 @@ impl<'a> Together<'a> {
         let mut runs = self.runs();
         others.retain(|point| runs.is_free(design, run(*point)));
         runs.early.extend(others.iter().map(|point| design.index(run(*point))));
-        runs.left -= others.len();
+        runs.left = runs.left.saturating_sub(others.len());
         others
     }
 }
 
 impl Runs {
-    fn begin(&mut self, index: usize) -> bool {
+    fn begin(&mut self, index: usize, point: usize) -> bool {
         self.next = index + 1;
         self.early = self.early.split_off(&index);
-        let is_new = !self.early.remove(&index);
-        self.left -= usize::from(is_new);
-        is_new
+        if self.early.remove(&index) {
+            return false;
+        }
+        self.left = self.left.saturating_sub(1);
+        index >= self.taken && !self.same.contains_key(&point)
     }
 
     fn take(&mut self, index: usize, point: usize) -> Option<Outcome> {
@@ -159,7 +162,13 @@ impl Runs {
         if self.same.first_key_value().is_some_and(|(same, _)| *same < point) {
             self.same = self.same.split_off(&point);
         }
-        self.known.remove(&index).or_else(|| self.same.get(&point).cloned())
+        let known = self.known.remove(&index).or_else(|| {
+            let same = self.same.get(&point).cloned()?;
+            self.made += 1;
+            Some(same)
+        })?;
+        self.taken = index + 1;
+        Some(known)
     }
 
     /// Whether a run was not begun, and is needed, as far as that is known of the replications before it.
@@ -209,10 +218,24 @@ mod tests {
     #[test]
     fn each_run_is_begun_once() {
         let mut runs = Runs { left: 9, early: [3, 5, 6].into(), ..Runs::default() };
-        assert_eq!([0, 1, 3, 4, 5].map(|index| runs.begin(index)), [true, true, false, true, false]);
+        assert_eq!([0, 1, 3, 4, 5].map(|index| runs.begin(index, 0)), [true, true, false, true, false]);
         // One that is not needed is left out.
-        assert!(runs.begin(8));
+        assert!(runs.begin(8, 0));
         assert_eq!((runs.left, runs.next, runs.early.len()), (5, 9, 0));
+    }
+
+    #[test]
+    fn replications_that_are_the_same_are_not_begun() {
+        let mut runs = Runs { left: 60, ..Runs::default() };
+        assert!(runs.begin(0, 0));
+        runs.same.extend([(0, outcome(1.0)), (1, outcome(2.0))]);
+        assert!((0..20).all(|index| runs.take(index, 0).is_some()));
+        assert!((20..40).all(|index| runs.take(index, 1).is_some()));
+        // Nobody asks for what is known of the first point any more.
+        assert!(runs.same.keys().eq([&1]));
+        assert!(!(1..40).any(|index| runs.begin(index, index / 20)));
+        assert!(runs.begin(40, 2));
+        assert_eq!((runs.made, runs.left), (40, 19));
     }
 
     #[test]
