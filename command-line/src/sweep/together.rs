@@ -11,7 +11,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Points after that of a run among which others are looked for.
-const AHEAD: usize = 256;
+const POINTS_AHEAD: usize = 256;
 /// Runs that are made together, and their machines in all: each may come to need a plant of its own.
 const MOST_RUNS: usize = 16;
 const MOST_MACHINES: usize = 2000;
@@ -116,7 +116,7 @@ impl<'a> Together<'a> {
         let Ok(made) = line.made(&point, order) else { return Vec::new() };
         let most = most_runs(made.project.plant.machines.len()) - 1;
         let points = self.plan.runs / design.replications as usize;
-        let later = number.point + 1..points.min(number.point + 1 + AHEAD);
+        let later = number.point + 1..points.min(number.point + 1 + POINTS_AHEAD);
         let alike = later.filter(|later| {
             let later = design.point(*later);
             (later.layout, later.order, later.delay) == (point.layout, point.order, point.delay)

@@ -151,7 +151,10 @@ impl<'a> Simulation<'a> {
         let is_executed = is_due || is_powered && self.stepping != Stepping::Events;
         let scans = self.agenda.scans_since(scan);
         if is_executed {
-            variants.execute(scan, scans, system, &self.inputs)?;
+            variants.waits.step();
+            for variant in variants.iter_mut() {
+                variant.execute(scan, scans, system, &self.inputs)?;
+            }
         }
         Ok(Begun { arrived, system, is_powered, is_due, is_executed, scans, acted: false })
     }

@@ -99,27 +99,15 @@ impl<'a> Alike<'a> {
         std::iter::once(&self.waits).chain(self.others.iter().filter_map(|other| other.waits.as_ref()))
     }
 
-    /// All execute a scan: [`Variant::execute`].
-    pub fn execute(
-        &mut self,
-        scan: u64,
-        scans: u64,
-        system: SystemInputs,
-        inputs: &[Vec<f64>],
-    ) -> Result<(), String> {
-        self.waits.step();
-        self.iter_mut().try_for_each(|variant| variant.execute(scan, scans, system, inputs))
-    }
-
     /// Takes out those of the others that are not like the first one; none if all are.
     pub fn split_off(&mut self, is_like: impl Fn(&Variant<'a>, &Variant<'a>) -> bool) -> Option<Self> {
         let first = &self.first;
         if self.others.iter().all(|other| is_like(first, other)) {
             return None;
         }
-        let (alike, apart) = self.others.drain(..).partition(|other| is_like(first, other));
+        let (alike, apart): (Vec<_>, Vec<_>) =
+            std::mem::take(&mut self.others).into_iter().partition(|other| is_like(first, other));
         self.others = alike;
-        let apart: Vec<_> = apart;
         let mut apart = apart.into_iter();
         Some(Self::new(apart.next()?, apart.collect()))
     }
