@@ -81,12 +81,14 @@ pub struct State {
     pub reads_while: Vec<ReadWhile>,
     /// Times in the state, ms, at which a guard may begin to hold or the stay becomes too long; none: any.
     pub timers: Option<Vec<u32>>,
+    /// No guard holds before the device has answered the last command.
+    pub awaits_answer: bool,
 }
 
 impl State {
     /// Whether reports say the same of both.
     pub(crate) fn is_reported_as(&self, other: &Self) -> bool {
-        let Self { name, working, awaits, reads: _, reads_while: _, timers: _ } = self;
+        let Self { name, working, awaits, .. } = self;
         (name, working, awaits) == (&other.name, &other.working, &other.awaits)
     }
 }

@@ -1,10 +1,15 @@
-//! What properties and operating modes of a machine keep in the trace: counters, alarms, whether it is stopped.
+//! What a machine has in the trace: its cells, and what properties and operating modes keep: counters, alarms, whether it is
+//! stopped.
+
+use std::ops::Range;
 
 /// Words are those of [`crate::scan::Controllers::trace`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Monitor {
     /// 1 while the machine is stopped by an alarm or at its panel; none if nothing stops it.
     pub stopped: Option<usize>,
+    /// What other machines may read or write too.
+    pub cells: Range<usize>,
     pub counters: Vec<Counter>,
     pub alarms: Vec<Alarm>,
     /// Words of the machine's inputs that its operating modes read, whether the line runs or not.
@@ -32,9 +37,9 @@ pub const ALARM_WORDS: usize = 5;
 impl Monitor {
     /// Whether the same words say the same; limits of times may differ.
     pub(crate) fn has_same_words(&self, other: &Self) -> bool {
-        let Self { stopped, counters, alarms, panel } = self;
+        let Self { stopped, cells, counters, alarms, panel } = self;
         let words = |counters: &[Counter]| counters.iter().map(|counter| counter.word).collect::<Vec<_>>();
-        (stopped, alarms, panel) == (&other.stopped, &other.alarms, &other.panel)
+        (stopped, cells, alarms, panel) == (&other.stopped, &other.cells, &other.alarms, &other.panel)
             && words(counters) == words(&other.counters)
     }
 

@@ -10,6 +10,7 @@ mod order_times;
 mod power;
 mod progress;
 mod recorders;
+mod settled;
 mod simulation;
 mod variant;
 

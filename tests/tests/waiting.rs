@@ -65,6 +65,33 @@ fn a_lock_that_another_holds_is_waited_for_and_the_answer_to_a_command_is_not() 
     assert!(gate["waiting_for"]["arm1"].as_f64().expect("seconds") > 8.0, "{accounts}");
 }
 
+/// A parameter names one member, or several.
+#[test]
+fn who_is_known_by_a_parameter_is_waited_for() {
+    let texts = Texts {
+        layout: r#"{"robots": [
+            {"name": "gate", "type": "gate", "pose": [0, 0, 0]},
+            {"name": "caller", "type": "caller", "pose": [1, 0, 0], "parameters": {"gate": "gate"}}]}"#
+            .into(),
+        specs: vec![format!(
+            "{TYPES} automaton Caller on post {{
+                parameter gate: Zone;
+                initial state Calls {{ when after 2 s -> Waits {{ gate.rung := true; }} }}
+                state Waits {{ when gate.held -> Waits {{}} }}
+            }}"
+        )],
+        scenario: Some(r#"{"time_limit_s": 10}"#.into()),
+        ..Texts::default()
+    };
+    let project = texts.project();
+    let mut executor = Executor::new(&project.system);
+    let report = run(&project.plant, &mut executor, Stepping::Events, &mut |_| {}).expect("a line that runs");
+    let report: Value = serde_json::from_str(&report.to_json()).expect("JSON");
+    let waited_for = |name: &str| report["robots"][name]["waiting_for"].clone();
+    assert!(waited_for("gate")["caller"].as_f64().is_some_and(|seconds| seconds > 1.9), "{report}");
+    assert!(waited_for("caller")["gate"].as_f64().is_some_and(|seconds| seconds > 7.9), "{report}");
+}
+
 /// All zones of a line would tell nothing.
 #[test]
 fn members_of_a_large_role_are_not_named() {

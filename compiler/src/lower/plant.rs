@@ -5,13 +5,14 @@ use super::role::Line;
 use crate::device::panel;
 use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
-use crate::ir::{Automaton, Expr, PropertyKind, State, System, Value};
+use crate::ir::{Automaton, Expr, PropertyKind, State, System, Type, Value};
 use crate::reads::{self, Reads};
 use crate::scenario::{self, Input, MachinePart, Number, Panel, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use runtime_sim::machine::Machine;
 use runtime_sim::monitor::{ALARM_WORDS, Alarm, Counter, Monitor};
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 pub fn resolve(
     scenario: &Scenario,
@@ -237,6 +238,8 @@ fn collected(scenario::Collected { sink, items }: scenario::Collected<[usize; 2]
 struct OfType<'a> {
     automaton: &'a Automaton,
     states: Vec<OfState<'a>>,
+    /// Words of its cells, counted from the beginning of the trace.
+    cells: Range<usize>,
     /// For each property of a time the word of its local, counted from the beginning of the trace, and the time if the
     /// layout fixes it.
     counters: Vec<(usize, Option<&'a Expr>)>,
@@ -250,6 +253,7 @@ struct OfState<'a> {
     timers: Option<Vec<&'a Expr>>,
     reads: Vec<usize>,
     reads_while: Vec<line::ReadWhile>,
+    awaits_answer: bool,
 }
 
 fn of_type<'a>(system: &System, automaton: &'a Automaton) -> OfType<'a> {
@@ -261,22 +265,28 @@ fn of_type<'a>(system: &System, automaton: &'a Automaton) -> OfType<'a> {
             reads: all.words(system.kinds()),
             reads_while: all.words_while(system.kinds()),
             timers: all.timers.iter().all(|time| is_fixed(time)).then(|| all.timers.to_vec()),
+            awaits_answer: awaited::awaits_answer(automaton, state),
         }
     });
-    let word = |local: usize| {
-        let before = automaton.locals[..local].iter();
-        2 + before.map(|l| l.ty.scalar.words() * system.model.elements(l.ty.extent)).sum::<usize>()
-    };
+    let word = |local: usize| 2 + words_of(system, automaton.locals[..local].iter().map(|local| local.ty));
     let counters = automaton.properties.iter().filter_map(|property| {
         let PropertyKind::Whenever { within, waited, .. } = &property.kind else { return None };
         Some((word(*waited), Some(within).filter(|within| is_fixed(within))))
     });
+    let cells = automaton.implements.iter().flat_map(|it| &system.model.interface(it.interface).cells);
+    let begin = word(automaton.locals.len());
+    let end = begin + words_of(system, cells.map(|cell| cell.ty));
     OfType {
         automaton,
         states: states.collect(),
+        cells: begin..end,
         counters: counters.collect(),
         panel: words(&Reads::of_modes(automaton), system.kinds()),
     }
+}
+
+fn words_of(system: &System, types: impl Iterator<Item = Type>) -> usize {
+    types.map(|ty| ty.scalar.words() * system.model.elements(ty.extent)).sum()
 }
 
 /// What the simulator needs of the states of an instance.
@@ -303,6 +313,7 @@ fn states(
             reads: of_state.reads.clone(),
             reads_while: of_state.reads_while.clone(),
             timers: of_state.timers.as_ref().map(|times| times.iter().filter_map(&mut time).collect()),
+            awaits_answer: of_state.awaits_answer,
         }
     };
     states.map(state).collect()
@@ -322,8 +333,10 @@ fn monitor(of_type: &OfType, traces: &[usize], executor: &mut Executor, instance
     let begin = traces[instance + 1] - automaton.alarm_words();
     let first = begin + usize::from(automaton.can_stop());
     let alarms = automaton.alarms().enumerate();
+    let cells = [of_type.cells.start, of_type.cells.end].map(|word| traces[instance] + word);
     Monitor {
         stopped: automaton.can_stop().then_some(begin),
+        cells: cells[0]..cells[1],
         counters,
         alarms: alarms
             .map(|(number, property)| Alarm {

@@ -24,7 +24,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 12".into());
+        put("line 13".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -66,17 +66,19 @@ impl Line {
             for state in &machine.states {
                 let activity = if state.working { "working" } else { "waiting" };
                 let timers = any_or_list(state.timers.as_deref());
+                let guards = if state.awaits_answer { "answered" } else { "open" };
                 put(format!(
-                    "      {} {activity} {} reads {} while {} timers {timers}",
+                    "      {} {activity} {} reads {} while {} timers {timers} {guards}",
                     state.name,
                     list(&state.awaits),
                     list(&state.reads),
                     reads_while(&state.reads_while)
                 ));
             }
-            let Monitor { stopped, counters, alarms, panel } = &machine.monitor;
+            let Monitor { stopped, cells, counters, alarms, panel } = &machine.monitor;
             let stopped = stopped.map_or("never".into(), |word| format!("at {word}"));
             put(format!("    stopped {stopped}"));
+            put(format!("    cells {} {}", cells.start, cells.end));
             put(format!("    counters {}", counters.len()));
             for Counter { word, limit } in counters {
                 let limit = limit.map_or("any".into(), |limit| format!("at {limit}"));
@@ -160,7 +162,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("12")?;
+        words.expect("13")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;
@@ -259,12 +261,21 @@ fn read_machine(words: &mut Words, devices: &[Arc<Wiring>]) -> Result<Machine, S
         })?;
         w.expect("timers")?;
         let timers = optional(w, "any", |w| w.list(|w| w.int()))?;
-        Ok(State { name, working, awaits, reads, reads_while, timers })
+        let awaits_answer = match w.name()? {
+            "answered" => true,
+            "open" => false,
+            other => return Err(w.error(format_args!("`{other}` is neither `answered` nor `open`"))),
+        };
+        Ok(State { name, working, awaits, reads, reads_while, timers, awaits_answer })
     })?;
     let monitor = Monitor {
         stopped: {
             words.expect("stopped")?;
             optional(words, "never", |w| w.int())?
+        },
+        cells: {
+            words.expect("cells")?;
+            words.int()?..words.int()?
         },
         counters: {
             words.expect("counters")?;

@@ -34,8 +34,17 @@ struct Stepped {
     scan: u64,
     system: SystemInputs,
     running: bool,
-    /// Something has changed in it.
-    acted: bool,
+    after: After,
+}
+
+/// What may happen in the scan after one because of what has happened in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum After {
+    /// Nothing has happened.
+    Nothing,
+    /// Only devices have something new to do.
+    Devices,
+    Anything,
 }
 
 /// What may happen without an event of a device or of the line.
@@ -92,7 +101,7 @@ impl Agenda {
         changes: &Changes,
     ) -> bool {
         let Some(last) = &self.last else { return true };
-        if last.acted || system != last.system {
+        if last.after == After::Anything || system != last.system {
             return true;
         }
         if last.running {
@@ -141,11 +150,12 @@ impl Agenda {
         system: SystemInputs,
         inputs: &[Vec<f64>],
         answer: SystemOutputs,
-        changed: bool,
+        after: After,
     ) {
         let running = answer.running;
         let was_running = self.last.as_ref().is_some_and(|last| last.running);
-        self.last = Some(Stepped { scan, system, running, acted: changed || running != was_running });
+        let after = if running == was_running { after } else { After::Anything };
+        self.last = Some(Stepped { scan, system, running, after });
         for (latched, input) in self.latched.iter_mut().zip(inputs) {
             latched.copy_from_slice(input);
         }
@@ -163,7 +173,7 @@ impl Agenda {
         plant: &Plant,
     ) -> Option<u64> {
         let Some(last) = &self.last else { return Some(scan + 1) };
-        if last.acted && last.scan == scan {
+        if last.after != After::Nothing && last.scan == scan {
             return Some(scan + 1);
         }
         if !last.running {

@@ -10,10 +10,15 @@ use crate::machine::Machine;
 #[derive(Clone, Default)]
 pub struct Changes {
     hash: Hash,
+    /// The trace, and the outputs of all machines behind it.
     words: Vec<f64>,
+    /// Words of the trace.
+    of_trace: usize,
     times: Vec<Time>,
     /// Milliseconds that pass in a scan while the system runs.
     scan_ms: f64,
+    /// Words that are others since the last scan that was taken; among them times that have not just gone on.
+    changed: Vec<usize>,
 }
 
 /// So many words are compared before one is looked for that has changed.
@@ -43,8 +48,11 @@ impl Changes {
     /// Takes the trace and the outputs of a scan, and says whether anything has changed since the last one that was
     /// taken, so many scans of a running system before: a word, or a time in a state that has not just gone on.
     pub fn take(&mut self, scan: u64, running: u64, trace: &[f64], outputs: &[Vec<f64>]) -> bool {
+        self.changed.clear();
         if self.words.is_empty() {
             self.words.extend(trace.iter().chain(outputs.iter().flatten()));
+            self.of_trace = trace.len();
+            self.changed.extend(0..self.words.len());
             for (index, word) in self.words.iter().enumerate() {
                 if self.times.iter().all(|time| time.word != index) {
                     self.hash.change(scan, index, *word);
@@ -53,48 +61,58 @@ impl Changes {
             return !self.words.is_empty();
         }
         // Whether a time stood still is said by the last trace.
-        let mut changed = self.take_times(running as f64 * self.scan_ms, trace);
+        self.take_times(running as f64 * self.scan_ms, trace);
         self.times.iter().for_each(|time| self.words[time.word] = trace[time.word]);
-        changed |= self.take_words(scan, 0, trace);
+        self.take_words(scan, 0, trace);
         let mut first = trace.len();
         for words in outputs {
-            changed |= self.take_words(scan, first, words);
+            self.take_words(scan, first, words);
             first += words.len();
         }
-        changed
+        !self.changed.is_empty()
     }
 
-    /// Whether a time has not just gone on.
-    fn take_times(&mut self, passed: f64, trace: &[f64]) -> bool {
-        let went_otherwise = |Time { word, stopped }: &Time| {
+    /// Notes times that have not just gone on.
+    fn take_times(&mut self, passed: f64, trace: &[f64]) {
+        for Time { word, stopped } in &self.times {
             let last = self.words[*word];
             let stands = stopped.is_some_and(|stopped| self.words[stopped] != 0.0);
             let gone_on = match stands || last < 0.0 {
                 true => last,
                 false => (last + passed).min(f64::from(i32::MAX)),
             };
-            trace[*word] != gone_on
-        };
-        self.times.iter().any(went_otherwise)
+            if trace[*word] != gone_on {
+                self.changed.push(*word);
+            }
+        }
     }
 
-    /// Whether one of these words has changed; the first of them has this number, and times among them are known by now.
-    fn take_words(&mut self, scan: u64, first: usize, words: &[f64]) -> bool {
+    /// Takes words that have changed; the first of these has this number, and times among them are known by now.
+    fn take_words(&mut self, scan: u64, first: usize, words: &[f64]) {
         let known = &mut self.words[first..first + words.len()];
-        let mut changed = false;
         for (number, (known, words)) in known.chunks_mut(FEW).zip(words.chunks(FEW)).enumerate() {
             if are_same(known, words) {
                 continue;
             }
-            changed = true;
             for (offset, (last, word)) in known.iter_mut().zip(words).enumerate() {
                 if last.to_bits() != word.to_bits() {
                     *last = *word;
-                    self.hash.change(scan, first + number * FEW + offset, *word);
+                    let place = first + number * FEW + offset;
+                    self.hash.change(scan, place, *word);
+                    self.changed.push(place);
                 }
             }
         }
-        changed
+    }
+
+    /// Words of the trace that the last scan has changed, but for times that have just gone on.
+    pub fn of_trace(&self) -> impl Iterator<Item = usize> {
+        self.changed.iter().copied().filter(|word| *word < self.of_trace)
+    }
+
+    /// Whether the last scan has changed a word of the outputs, counted through all machines.
+    pub fn has_changed_output(&self, word: usize) -> bool {
+        self.changed.contains(&(self.of_trace + word))
     }
 
     /// Time in its state of the machine whose stay is at this place of the trace, ms.

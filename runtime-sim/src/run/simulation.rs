@@ -2,7 +2,7 @@
 //! same so far.
 
 use super::accounts::Accounts;
-use super::agenda::{Agenda, Waits};
+use super::agenda::{After, Agenda, Waits};
 use super::alarms::Alarms;
 use super::changes::Changes;
 use super::faults::Faults;
@@ -10,6 +10,7 @@ use super::order_times::{self, OrderTimes};
 use super::power::Unpowered;
 use super::progress::Progress;
 use super::recorders::Recorders;
+use super::settled::Settled;
 use super::variant::{Alike, Variant};
 use super::{Seen, Stepping};
 use crate::account::Activity;
@@ -40,6 +41,7 @@ pub struct Simulation<'a> {
     inputs: Vec<Vec<f64>>,
     agenda: Agenda,
     changes: Changes,
+    settled: Settled<'a>,
     /// The last answer of the controllers, and the states of their automata.
     answer: SystemOutputs,
     states: Vec<usize>,
@@ -108,6 +110,7 @@ impl<'a> Simulation<'a> {
             inputs: plant.images().to_vec(),
             agenda: Agenda::new(stays.clone(), plant.images(), analogue),
             changes: Changes::new(&stays, line),
+            settled: Settled::new(line, &stays),
             answer: SystemOutputs::default(),
             states: (0..line.machines.len()).map(|machine| controllers.state(machine)).collect(),
             stays,
@@ -177,7 +180,12 @@ impl<'a> Simulation<'a> {
         if begun.acted && self.stepping == Stepping::Checked && (!begun.is_due || scan < self.quiet_until) {
             return Err(format!("something happens in scan {scan}, which would be left out"));
         }
-        self.agenda.step(scan, system, &self.inputs, answer, begun.acted);
+        let after = match begun.acted {
+            false => After::Nothing,
+            true if answer == before && self.settled.holds(&self.states, &self.changes) => After::Devices,
+            true => After::Anything,
+        };
+        self.agenda.step(scan, system, &self.inputs, answer, after);
         self.faults.note(scan, answer, &self.states);
         Ok(())
     }

@@ -337,6 +337,7 @@ pub fn states(others: Vec<usize>) -> Vec<State> {
             reads: vec![],
             reads_while: vec![],
             timers: None,
+            awaits_answer: false,
         },
         State {
             name: "Working".into(),
@@ -345,6 +346,7 @@ pub fn states(others: Vec<usize>) -> Vec<State> {
             reads: vec![],
             reads_while: vec![],
             timers: None,
+            awaits_answer: false,
         },
     ]
 }
