@@ -68,6 +68,35 @@ fn what_is_retained_is_of_this_program_and_of_one_scan() {
     }
 }
 
+/// An online change leaves the variables alone; a download initializes them, or only those of the program.
+#[test]
+fn a_program_with_other_variables_stops_the_line() {
+    let (_, text) = of_layout("default");
+    let mut machine = Machine::new(&text.main).expect("a clean text");
+    machine.set("run_permit", 1.0);
+    machine.scan().expect("a scan");
+    machine.set("start", 1.0);
+    (0..500).for_each(|_| machine.scan().expect("a scan"));
+    assert_eq!(machine.get("running"), 1.0);
+    let names = ["running", "init_done", "fault_code", "agv1.state"];
+    for (values_of, is_kept, expected) in [
+        (machine.get("values_of"), true, [1.0, 1.0, 0.0, 4.0]),
+        (77.0, true, [0.0, 1.0, 0.0, 4.0]),
+        (0.0, false, [0.0, 1.0, 32766.0, 0.0]),
+    ] {
+        let mut machine = machine.clone();
+        machine.set("values_of", values_of);
+        if !is_kept {
+            machine.set("agv1.kept", 0.0);
+        }
+        machine.scan().expect("a scan");
+        assert_eq!(names.map(|name| machine.get(name)), expected, "{values_of}");
+        // Without an edge nothing moves.
+        (0..10).for_each(|_| machine.scan().expect("a scan"));
+        assert_eq!(machine.get("running"), expected[0], "{values_of}");
+    }
+}
+
 /// Some controllers retain what they were told to, one variable at a time. Blocks and structures that were not kept
 /// are found, in each flavour.
 #[test]

@@ -34,6 +34,34 @@ impl System {
     pub fn shape_of_retained(&self) -> u32 {
         let mut shape = Shape::BEGIN;
         shape.number(self.model.shape_of_retained() as i32);
+        self.add_instances(&mut shape);
+        shape.end()
+    }
+
+    /// A number that changes when the variables of the controllers do, or their initial values: as
+    /// [`Self::shape_of_retained`], with the states, locals, cells and ports of all types.
+    pub fn shape_of_variables(&self) -> u32 {
+        let mut shape = Shape::BEGIN;
+        for automaton in &self.model.automata {
+            shape.text(&automaton.name);
+            automaton.states.iter().for_each(|state| shape.text(&state.name));
+            for local in &automaton.locals {
+                shape.value(&local.name, local.ty, &self.model);
+            }
+            for port in &automaton.device.ports {
+                let ty = Type { scalar: port.ty.into(), extent: port.extent.into() };
+                shape.value(&port.name, ty, &self.model);
+            }
+        }
+        for interface in &self.model.interfaces {
+            shape.text(&interface.name);
+            interface.cells.iter().for_each(|cell| shape.value(&cell.name, cell.ty, &self.model));
+        }
+        self.add_instances(&mut shape);
+        shape.end()
+    }
+
+    fn add_instances(&self, shape: &mut Shape) {
         for instance in &self.instances {
             shape.text(&instance.name);
             shape.text(&self.model.automaton(instance.automaton).name);
@@ -46,7 +74,6 @@ impl System {
                 members.iter().for_each(|member| shape.number(*member as i32));
             }
         }
-        shape.end()
     }
 }
 

@@ -86,6 +86,7 @@ const TAKEN: &[&str] = &[
 pub const ELEMENT: &str = "element_no";
 const LOCAL: &[&str] = &["robot", "state", "elapsed", "done", "failed", "found", KEPT, ELEMENT];
 const PROGRAM: &[&str] = &[
+    "values_of",
     "start_now",
     "reset_now",
     "start_before",

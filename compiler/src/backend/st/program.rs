@@ -45,7 +45,7 @@ pub fn statements<'a>(shared: Shared<'a>, blocks: &Arc<Vec<Option<Blocks<'a>>>>,
         let blocks = blocks.clone();
         move |robot: usize| of_robot(shared, &blocks, robot).map_or(Vec::new(), |of| make(shared, of, robot))
     };
-    let mut first = Vec::new();
+    let mut first = vec![restart::begin_anew(shared)];
     let retained = (0..count).filter(|robot| {
         of_robot(shared, blocks, *robot).is_some_and(|of| publishes(&of.steps, restart::KEPT))
     });
@@ -121,6 +121,7 @@ pub fn program<'a>(
         name: "MAIN".into(),
         comments: vec!["One scan: every robot steps once, in layout order.".into()],
         variables: [
+            restart::values_of(),
             Variable::new("start_now", Basic::Bool).with_comment("start, in this scan"),
             Variable::new("reset_now", Basic::Bool).with_comment("reset, in this scan"),
             Variable::new("start_before", Basic::Bool)

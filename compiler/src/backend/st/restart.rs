@@ -1,4 +1,4 @@
-//! Going on after a loss of power: what is retained, and the first scan after it.
+//! Going on after a loss of power or a download: what is retained, and the first scan after it.
 //!
 //! Retained variables are declared so, and the first scan leaves them alone if [`WARM`] says that all of them are of
 //! this program and of one scan. Otherwise everything has its initial value.
@@ -20,6 +20,10 @@ pub const WARM: &str = "warm_start";
 const OF: &str = "retained_of";
 /// They are all of one scan.
 const WHOLE: &str = "retained_whole";
+
+/// Of which program the values of all variables are. It is a variable of the program itself, and not retained: where a download
+/// gives its instances initial values, it is one of these.
+const VALUES_OF: &str = "values_of";
 
 /// In what is retained as a whole: a block, or the cells of an interface. It is false where that was not kept.
 pub const KEPT: &str = "kept";
@@ -52,7 +56,26 @@ pub fn variables(shared: Shared) -> Vec<Variable> {
     ]
 }
 
-/// The begin of MAIN. `retained` are the instances of blocks that have a [`mark`].
+/// A variable of MAIN.
+pub fn values_of() -> Variable {
+    Variable::new(VALUES_OF, Basic::Dint).with_comment("identifies the program of the last scan; 0: none")
+}
+
+/// The first statements of MAIN.
+pub fn begin_anew(shared: Shared) -> Stmt {
+    let shape = || Ex::Int(shared.system.shape_of_variables() as i32);
+    let stopped = vec![
+        Stmt::Comment(
+            "The first scan, or the first after a download or an online change of variables.".into(),
+        ),
+        assign("init_done", Ex::Bool(false)),
+        assign("running", Ex::Bool(false)),
+        assign(VALUES_OF, shape()),
+    ];
+    when(binary("<>", name(VALUES_OF), shape()), stopped)
+}
+
+/// What follows. `retained` are the instances of blocks that have a [`mark`].
 pub fn begin<'n>(shared: Shared, retained: impl Iterator<Item = &'n str>) -> Vec<Stmt> {
     if !shared.system.model.retains() {
         return Vec::new();

@@ -6,7 +6,7 @@ use super::code::Ex;
 use super::context::Shared;
 use super::declaration::{Instance, Unit, Variable, lists_of_globals};
 use super::functions::Function;
-use super::print::Dialect;
+use super::print::{Dialect, harmless};
 use super::text::{body, enumerations, made_from};
 use super::values::Elements;
 use crate::backend::{Part, part};
@@ -277,7 +277,7 @@ fn about(variable: &Variable, dialect: Dialect, to: &mut Formatter) -> fmt::Resu
         text if text.ends_with('.') => format!("{text} {line}"),
         text => format!("{text}; {line}"),
     });
-    let about = escaped(&about);
+    let about = escaped(&harmless(&about));
     match dialect {
         _ if about.is_empty() => Ok(()),
         Dialect::Portable => write!(to, "<documentation><xhtml:p>{about}</xhtml:p></documentation>"),
