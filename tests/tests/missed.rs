@@ -2,7 +2,7 @@
 //! obstacle before it moves.
 
 use autogen::executor::Executor;
-use autogen_tests::Texts;
+use autogen_tests::{Texts, ariac};
 use runtime_sim::memory::Memory;
 use runtime_sim::report::Report;
 use runtime_sim::run::{Stepping, run_again};
@@ -78,6 +78,20 @@ fn an_arm_that_stands_in_an_obstacle_at_its_rest_is_named() {
     let may_touch = r#"{"may_touch": [{"pair": ["arm", "block"], "reason": "soft"}], "#;
     allowed.layout = allowed.layout.replacen('{', may_touch, 1);
     assert_eq!(codes(&allowed), Vec::<&str>::new());
+}
+
+/// A collector may surround the end of a belt, and nothing else.
+#[test]
+fn a_machine_that_stands_in_a_collector_is_named() {
+    let collector = |pose: &str| {
+        let text =
+            format!(r#"{{"name": "last", "type": "collector", "pose": {pose}, "box": [0.7, 0.9, 0.5]}}"#);
+        let mut texts = ariac("default");
+        texts.layout = texts.layout.replacen("\"stationary\": [", &format!("\"stationary\": [{text},"), 1);
+        texts.compile().diagnostics.iter().map(|diagnostic| diagnostic.code).collect::<Vec<_>>()
+    };
+    assert_eq!(collector("[-2.27, 4.68, 0]"), ["E0409"], "in agv1");
+    assert_eq!(collector("[-0.58, 4.7, 0]"), Vec::<&str>::new(), "at the other end of the belt");
 }
 
 /// An arm whose last joint turns by 50 degrees to either side at most.

@@ -9,6 +9,10 @@ use std::collections::HashMap;
 /// The type of an obstacle around the end of a belt.
 const COLLECTOR: &str = "collector";
 
+fn conveys(plant: &Line, name: &str) -> bool {
+    plant.machines.iter().any(|machine| machine.name == name && machine.lanes().next().is_some())
+}
+
 pub fn overlaps(layout: &Layout, plant: &Line) -> Vec<Diagnostic> {
     let objects: HashMap<&str, &Object> =
         layout.objects.iter().map(|object| (object.name.value.as_str(), object)).collect();
@@ -16,7 +20,10 @@ pub fn overlaps(layout: &Layout, plant: &Line) -> Vec<Diagnostic> {
     let found = overlaps.filter_map(|overlap| {
         let [a, b] = overlap.names.each_ref().map(|name| objects.get(name.as_str()).copied());
         let (a, b) = (a?, b?);
-        if [a, b].iter().any(|object| object.kind.value == COLLECTOR) {
+        let is_at_belt = |collector: &Object, other: &Object| {
+            collector.kind.value == COLLECTOR && conveys(plant, &other.name.value)
+        };
+        if is_at_belt(a, b) || is_at_belt(b, a) {
             return None;
         }
         let [first, second] = [a, b].map(|object| &object.name);
