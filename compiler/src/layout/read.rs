@@ -25,7 +25,7 @@ pub type Reading = (Option<Layout>, Vec<Diagnostic>);
 pub fn parse(sources: &Sources, file: FileId) -> Reading {
     let source = sources.file(file);
     let (json, diagnostics) = json::parse(&source.text, file);
-    let mut decoder = Decoder { diagnostics };
+    let mut decoder = Decoder::new(diagnostics);
     let layout = json.and_then(|json| decoder.layout(&json, &source.name));
     sort(&mut decoder.diagnostics);
     (layout, decoder.diagnostics)
