@@ -90,6 +90,7 @@ impl Decoder {
                 every_s: EVERY_S,
                 seed: SEED,
                 items: Items::Shuffled { surplus: SURPLUS },
+                times: 1,
             }),
         };
         Some(Scenario {
