@@ -94,7 +94,7 @@ impl Decoder {
         for object in objects {
             let own = object.name.value.as_str();
             for (key, list) in [("takes_from", &object.takes_from), ("hands_to", &object.hands_to)] {
-                for name in list.iter().flatten() {
+                for name in list.iter().flat_map(|list| &list.value) {
                     if self.is_full() {
                         return;
                     }
