@@ -99,9 +99,9 @@ impl IoMap {
         self.wires.is_empty()
     }
 
-    /// Points without an address that a cabinet needs as soon as others of their robot have one: its outputs, the
-    /// inputs that its type reads, and the answers to its commands; the inputs of the line as soon as any point has
-    /// one. By robot, empty for the line.
+    /// Points without an address that a cabinet needs as soon as others of their robot have one: its outputs,
+    /// the inputs that its type reads, and the answers to its commands; the inputs of the line as soon as any
+    /// point has one. By robot, empty for the line.
     pub fn gaps<'p>(&self, points: &'p [Point], system: &System) -> Vec<(&'p str, Vec<&'p str>)> {
         let read = inputs_read(system);
         let mut robots: Vec<&str> = Vec::new();

@@ -5,9 +5,9 @@ use petgraph::algo::dominators;
 use petgraph::graph::{DiGraph, EdgeReference, NodeIndex};
 use petgraph::visit::{Dfs, EdgeFiltered, FilterEdge, IntoNeighbors, Reversed, VisitMap, Visitable};
 
-/// All handovers that the types propose, whether the machines meet or not, and behind these the ones that lists of the
-/// layout withhold. Items enter at one node more, which leads
-/// to every source, and leave at another, to which every destination leads.
+/// All handovers that the types propose, whether the machines meet or not, and behind these the ones that
+/// lists of the layout withhold. Items enter at one node more, which leads to every source, and leave at
+/// another, to which every destination leads.
 #[derive(Clone, Debug)]
 pub struct Flow {
     graph: Handovers,

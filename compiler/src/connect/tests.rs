@@ -536,8 +536,8 @@ impl Random {
     }
 }
 
-/// Code and help of all that is told of a vehicle that is out of reach of the first arm, and that the list of the second
-/// one, which reaches it, leaves out.
+/// Code and help of all that is told of a vehicle that is out of reach of the first arm, and that the list of
+/// the second one, which reaches it, leaves out.
 fn told_of_left_out(is_named: bool) -> Vec<(&'static str, String)> {
     let mut builder = with(1.0, &default_agvs()[..1], &STATIONS);
     let arm = builder.kitting("second_robot", 4.8);

@@ -24,8 +24,8 @@ struct Cause {
     stuck: Vec<usize>,
 }
 
-/// The pairs that would meet. Not among them is one whose arm meets the same machine the other way without naming it: items
-/// would go in a circle.
+/// The pairs that would meet. Not among them is one whose arm meets the same machine the other way without
+/// naming it: items would go in a circle.
 pub fn met<'a>(
     line: &'a Line,
     reachable: &'a Reachable,
@@ -39,7 +39,8 @@ pub fn met<'a>(
     met.map(|(number, _)| number)
 }
 
-/// Takes pairs that a list keeps apart and that would have `met` for standing, as long as this connects further nodes.
+/// Takes pairs that a list keeps apart and that would have `met` for standing, as long as this connects
+/// further nodes.
 pub fn diagnostics(
     line: &Line,
     flow: &Flow,
@@ -80,7 +81,8 @@ impl Change<'_> {
     }
 }
 
-/// The pair that would connect most nodes if no list kept it apart, and what is connected then. Of several the first.
+/// The pair that would connect most nodes if no list kept it apart, and what is connected then. Of several
+/// the first.
 fn most_helpful(
     line: &Line,
     flow: &Flow,

@@ -229,8 +229,8 @@ impl<'a> Line<'a> {
     }
 
     /// The pairs that the types propose and that are wanted, by arm, passive machine and kind of role; and
-    /// the robot and the role that each is for. `nodes` are the robots that are nodes. With `left_out` the pairs that
-    /// `takes_from` and `hands_to` keep apart, otherwise the others.
+    /// the robot and the role that each is for. `nodes` are the robots that are nodes. With `left_out` the
+    /// pairs that `takes_from` and `hands_to` keep apart, otherwise the others.
     fn proposals(
         &self,
         nodes: &[usize],
@@ -268,7 +268,8 @@ impl<'a> Line<'a> {
         (proposals, asked_by)
     }
 
-    /// Robots that a role of an arm could have by their types, and what `takes_from` or `hands_to` of the layout says of them.
+    /// Robots that a role of an arm could have by their types, and what `takes_from` or `hands_to` of the
+    /// layout says of them.
     fn candidates<'l>(&'l self, arm: usize, role: &Role) -> Vec<(usize, Listed)> {
         let direction = match role.kind {
             RoleKind::Takes => Direction::Offers,
