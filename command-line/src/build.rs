@@ -109,7 +109,7 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let Some(project) = project else { return Err(wrong(&sources, &diagnostics)) };
     let map = io_map(options, &project, &sources, table).map_err(|found| wrong(&sources, &found))?;
     if table.is_some() && options.input.format == Format::Text && !options.input.quiet {
-        report_gaps(&map, &st::points(&project.system));
+        report_gaps(&map, &project.system);
     }
     let (with_texts, translations) = match &options.texts {
         None => (sources.clone(), Translations::default()),
@@ -268,7 +268,8 @@ fn io_map(
 }
 
 /// Says which addresses a table leaves out.
-fn report_gaps(map: &IoMap, points: &[Point]) {
+fn report_gaps(map: &IoMap, system: &System) {
+    let points = st::points(system);
     say!("{} of {} points have an address", map.len(), points.len());
     let is_inverted = |at| map.wire(at).is_some_and(|wire| wire.conversion == Conversion::Inverted);
     let pressed = points.iter().enumerate().filter(|(at, point)| is_pressed(point) && is_inverted(*at));
@@ -278,7 +279,7 @@ fn report_gaps(map: &IoMap, points: &[Point]) {
             point.name
         );
     }
-    for (robot, missing) in map.gaps(points) {
+    for (robot, missing) in map.gaps(&points, system) {
         let whose = if robot.is_empty() { "the line" } else { robot };
         say!("note: {whose} has points without one: {}", missing.join(", "));
     }

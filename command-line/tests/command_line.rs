@@ -35,6 +35,8 @@ mod interrupt;
 mod interrupted_write;
 #[path = "command_line/inverted.rs"]
 mod inverted;
+#[path = "command_line/left_out.rs"]
+mod left_out;
 #[path = "../../tests/src/machines.rs"]
 mod machines;
 #[path = "command_line/misplaced.rs"]

@@ -16,10 +16,13 @@ pub use raw::Raw;
 
 use crate::csv;
 use crate::diagnostic::{self, Diagnostic};
+use crate::ir::System;
+use crate::reads::Reads;
 use crate::source::{FileId, Sources};
 use columns::Columns;
 use runtime_sim::device::Direction;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 /// A scalar that a sensor or a drive supplies or takes.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,9 +99,11 @@ impl IoMap {
         self.wires.is_empty()
     }
 
-    /// Points without an address that a cabinet needs as soon as others of their robot have one: its outputs, and
-    /// the answers to its commands; the inputs of the line as soon as any point has one. By robot, empty for the line.
-    pub fn gaps<'p>(&self, points: &'p [Point]) -> Vec<(&'p str, Vec<&'p str>)> {
+    /// Points without an address that a cabinet needs as soon as others of their robot have one: its outputs,
+    /// the inputs that its type reads, and the answers to its commands; the inputs of the line as soon as any
+    /// point has one. By robot, empty for the line.
+    pub fn gaps<'p>(&self, points: &'p [Point], system: &System) -> Vec<(&'p str, Vec<&'p str>)> {
+        let read = inputs_read(system);
         let mut robots: Vec<&str> = Vec::new();
         for point in points {
             if !robots.contains(&point.robot.as_str()) {
@@ -112,7 +117,9 @@ impl IoMap {
         let is_needed = |point: &Point| match point.direction {
             Direction::Output => !point.robot.is_empty(),
             Direction::Input => {
-                point.robot.is_empty() || ["got", "ack", "error"].contains(&point.port.as_str())
+                let is_read =
+                    || read.get(point.robot.as_str()).is_some_and(|read| read.contains(point.port.as_str()));
+                point.robot.is_empty() || ["got", "ack", "error"].contains(&point.port.as_str()) || is_read()
             }
         };
         let gaps = robots.into_iter().map(|robot| {
@@ -126,6 +133,15 @@ impl IoMap {
         });
         gaps.filter(|(_, missing)| !missing.is_empty()).collect()
     }
+}
+
+/// Inputs of the device that the type of each robot reads.
+fn inputs_read(system: &System) -> BTreeMap<&str, Rc<BTreeSet<&str>>> {
+    let types = system.model.automata.iter();
+    let types: Vec<Rc<BTreeSet<&str>>> =
+        types.map(|automaton| Rc::new(Reads::of_type(automaton).names_of_inputs().collect())).collect();
+    let instances = system.instances.iter();
+    instances.map(|instance| (instance.name.as_str(), types[instance.automaton.0].clone())).collect()
 }
 
 impl Kind {

@@ -2,7 +2,7 @@
 
 use crate::ir::{
     Action, Automaton, Binder, ByHand, Clause, Domain, Expr, ExprKind, InterfaceId, Operator, Place,
-    Property, State, Update, UpdateKind,
+    Property, State, Transition, Update, UpdateKind,
 };
 use runtime_sim::device::{Direction, Extent, PortType};
 use runtime_sim::line::ReadWhile;
@@ -75,21 +75,24 @@ impl<'a> Reads<'a> {
     /// which stays in the state, since it may fire in every scan and change nothing as long as this is the same.
     pub fn of_state(automaton: &'a Automaton, state: &'a State) -> Self {
         let mut reads = Self::of_guards(automaton, state);
-        for transition in state.transitions.iter().filter(|transition| transition.target.is_none()) {
-            reads.guard(&transition.clauses);
-            for clause in &transition.clauses {
-                if let Clause::Bind(Binder { key: Some(key), .. }) = clause {
-                    reads.expr(key);
-                }
-            }
-            transition.updates.iter().for_each(|update| reads.update(update));
-            reads.gates.clear();
-        }
-        if let Some((longest, _)) = &state.within {
-            reads.timers.push(longest);
-            reads.expr(longest);
+        let stays = state.transitions.iter().filter(|transition| transition.target.is_none());
+        stays.for_each(|transition| reads.transition(transition));
+        reads.longest_stay(state);
+        automaton.properties.iter().flat_map(Property::exprs).for_each(|expr| reads.expr(expr));
+        reads
+    }
+
+    /// All that an instance reads, in whatever state and mode it is.
+    pub fn of_type(automaton: &'a Automaton) -> Self {
+        let mut reads = Self::of_modes(automaton);
+        for state in &automaton.states {
+            state.transitions.iter().for_each(|transition| reads.transition(transition));
+            reads.longest_stay(state);
         }
         automaton.properties.iter().flat_map(Property::exprs).for_each(|expr| reads.expr(expr));
+        if let Some(modes) = &automaton.modes {
+            [&modes.is_single, &modes.may_go_on].into_iter().for_each(|expr| reads.expr(expr));
+        }
         reads
     }
 
@@ -104,6 +107,25 @@ impl<'a> Reads<'a> {
             }
         }
         reads
+    }
+
+    /// Reads a guard, what it chooses by, and what is done when it holds.
+    fn transition(&mut self, transition: &'a Transition) {
+        self.guard(&transition.clauses);
+        for clause in &transition.clauses {
+            if let Clause::Bind(Binder { key: Some(key), .. }) = clause {
+                self.expr(key);
+            }
+        }
+        transition.updates.iter().for_each(|update| self.update(update));
+        self.gates.clear();
+    }
+
+    fn longest_stay(&mut self, state: &'a State) {
+        if let Some((longest, _)) = &state.within {
+            self.timers.push(longest);
+            self.expr(longest);
+        }
     }
 
     /// Reads a guard, and leaves behind what holds when it does.
@@ -242,6 +264,12 @@ impl<'a> Reads<'a> {
     pub fn inputs_while(&self) -> impl Iterator<Item = (usize, &[Gate])> {
         let behind = self.behind.iter().filter(|(port, _)| !self.inputs.contains(port));
         behind.map(|(port, gates)| (*port, gates.as_slice()))
+    }
+
+    /// Names of all inputs that are read, behind conditions or not.
+    pub fn names_of_inputs(&self) -> impl Iterator<Item = &'a str> {
+        let all = self.inputs.iter().copied().chain(self.inputs_while().map(|(port, _)| port));
+        all.map(|port| self.automaton.device.ports[port].name.as_str())
     }
 
     /// The inputs as words of the process image; `kinds` is the number of kinds of part.

@@ -1,4 +1,4 @@
-//! Tables of a spreadsheet in an encoding that is not read, or too large.
+//! Tables of a spreadsheet: in an encoding that is not read, too large, or with rows that are not filled.
 
 use super::*;
 
@@ -36,4 +36,30 @@ fn a_table_that_is_too_large_is_an_error_of_the_input() {
         assert_eq!(status(&output), 1, "{option}: {}", errors(&output));
         assert!(errors(&output).contains("large.csv: this file is larger than 10 MB"), "{}", errors(&output));
     }
+}
+
+#[test]
+fn inputs_that_a_type_reads_are_among_the_points_without_an_address() {
+    let folder = folder("table_with_gaps");
+    let table = "robot,name,address,raw type,scale,offset,inversion\n\
+                 agv1,agv1_cmd,%QW1,UINT,,,\nkitting,kitting_cmd,%QW2,UINT,,,\n";
+    fs::write(folder.join("io.csv"), table).expect("a file");
+    let layout = example("ariac2021/default.json");
+    let output = autogen(&folder, &["build", &layout, "--io", "io.csv", "-o", "out"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let said = String::from_utf8_lossy(&output.stdout);
+    let missing = |robot: &str| -> Vec<&str> {
+        let begin = format!("note: {robot} has points without one: ");
+        let names = said.lines().find_map(|line| line.strip_prefix(&begin));
+        names.unwrap_or_else(|| panic!("{robot}: {said}")).split(", ").collect()
+    };
+    assert_eq!(missing("the line"), ["run_permit", "start", "reset"]);
+    let kitting = missing("kitting");
+    for name in ["kitting_attached", "kitting_tool_x", "kitting_got", "kitting_ack", "kitting_grip"] {
+        assert!(kitting.contains(&name), "{name}: {kitting:?}");
+    }
+    let of_agv = missing("agv1");
+    assert!(of_agv.contains(&"agv1_got"), "{of_agv:?}");
+    // No state of the vehicle reads where it is.
+    assert!(!of_agv.contains(&"agv1_at_stop") && !of_agv.contains(&"agv1_pos_x"), "{of_agv:?}");
 }

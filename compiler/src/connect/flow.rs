@@ -5,8 +5,9 @@ use petgraph::algo::dominators;
 use petgraph::graph::{DiGraph, EdgeReference, NodeIndex};
 use petgraph::visit::{Dfs, EdgeFiltered, FilterEdge, IntoNeighbors, Reversed, VisitMap, Visitable};
 
-/// All handovers that the types propose, whether the machines meet or not. Items enter at one node more, which leads
-/// to every source, and leave at another, to which every destination leads.
+/// All handovers that the types propose, whether the machines meet or not, and behind these the ones that
+/// lists of the layout withhold. Items enter at one node more, which leads to every source, and leave at
+/// another, to which every destination leads.
 #[derive(Clone, Debug)]
 pub struct Flow {
     graph: Handovers,
@@ -20,13 +21,13 @@ type Handovers = DiGraph<(), Option<usize>>;
 /// A bit for each node.
 type Nodes = <Handovers as Visitable>::Map;
 
-/// For each proposal whether its machines meet.
+/// For each proposal whether its machines meet; those behind the last one do not.
 #[derive(Clone, Copy)]
 struct Standing<'s>(&'s [bool]);
 
 impl FilterEdge<EdgeReference<'_, Option<usize>>> for Standing<'_> {
     fn include_edge(&self, edge: EdgeReference<'_, Option<usize>>) -> bool {
-        edge.weight().is_none_or(|proposal| self.0[proposal])
+        edge.weight().is_none_or(|proposal| self.0.get(proposal).is_some_and(|stands| *stands))
     }
 }
 
@@ -58,7 +59,8 @@ impl Flow {
                 graph.add_edge(node, exit, None);
             }
         }
-        for (number, proposal) in line.proposals.iter().enumerate() {
+        let withheld = line.withheld.iter().map(|withheld| &withheld.pair);
+        for (number, proposal) in line.proposals.iter().chain(withheld).enumerate() {
             graph.add_edge(nodes[proposal.from], nodes[proposal.to], Some(number));
         }
         Self { graph, entry, exit }

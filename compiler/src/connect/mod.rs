@@ -9,6 +9,7 @@ mod near;
 mod poses;
 mod suggestion;
 mod verdict;
+mod withheld;
 
 #[cfg(test)]
 mod tests;
@@ -60,6 +61,16 @@ pub struct Proposal {
     pub site: Site,
     /// Where the automaton declares it.
     pub rule: Span,
+    /// Whether `takes_from` or `hands_to` of the arm names the passive machine.
+    pub is_named: bool,
+}
+
+/// A pair that would be a proposal, but for a list of the layout that does not name the passive machine.
+#[derive(Clone, Debug)]
+pub struct Withheld {
+    pub pair: Proposal,
+    /// `takes_from` or `hands_to` of the arm.
+    pub list: Span,
 }
 
 /// All that connectivity depends on.
@@ -70,6 +81,8 @@ pub struct Line {
     /// In layout order.
     pub nodes: Vec<Node>,
     pub proposals: Vec<Proposal>,
+    /// What is told where they would connect machines that are cut off.
+    pub withheld: Vec<Withheld>,
     /// Name, and height of the grip point over the underside, m, of each kind of part.
     pub kinds: Vec<(String, f64)>,
 }
@@ -239,7 +252,8 @@ pub fn check(line: &Line) -> Report {
             Failure { proposal, misses, tested, suggestion, turn }
         })
         .collect();
-    let diagnostics = verdict::diagnostics(line, &flow, &stands, &failures);
+    let met: Vec<usize> = withheld::met(line, &reachable, &stands).take(sought).collect();
+    let diagnostics = verdict::diagnostics(line, &flow, &stands, &failures, &met);
     let those = |wanted: fn(&Node) -> bool| -> Vec<usize> {
         (0..line.nodes.len()).filter(|node| wanted(&line.nodes[*node])).collect()
     };

@@ -60,7 +60,8 @@ pub struct Reachable<'a> {
 impl<'a> Reachable<'a> {
     pub fn new(line: &'a Line) -> Self {
         let mut is_arm = vec![false; line.nodes.len()];
-        line.proposals.iter().for_each(|proposal| is_arm[proposal.arm] = true);
+        let withheld = line.withheld.iter().map(|withheld| &withheld.pair);
+        line.proposals.iter().chain(withheld).for_each(|proposal| is_arm[proposal.arm] = true);
         let arms =
             line.nodes.iter().zip(is_arm).map(|(node, is_arm)| is_arm.then(|| node.placed.arm()).flatten());
         Self { line, arms: arms.collect() }

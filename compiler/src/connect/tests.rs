@@ -80,7 +80,7 @@ impl Builder {
         let (name, index, approach) = site;
         let site = Site { name: name.into(), index, capacity: 12, approach };
         let rule = Span::new(crate::source::FileId(0), 0, 10);
-        self.proposals.push(Proposal { from, to, arm, site, rule });
+        self.proposals.push(Proposal { from, to, arm, site, rule, is_named: false });
     }
 
     /// Every pair of types that hand over to each other.
@@ -105,6 +105,7 @@ impl Builder {
             span: Span::new(file, 0, 0),
             nodes: self.nodes.clone(),
             proposals: self.proposals.clone(),
+            withheld: Vec::new(),
             kinds: self.kinds.clone(),
         }
     }
@@ -533,4 +534,50 @@ impl Random {
     fn below(&mut self, end: u64) -> u64 {
         self.next() % end
     }
+}
+
+/// Code and help of all that is told of a vehicle that is out of reach of the first arm, and that the list of
+/// the second one, which reaches it, leaves out.
+fn told_of_left_out(is_named: bool) -> Vec<(&'static str, String)> {
+    let mut builder = with(1.0, &default_agvs()[..1], &STATIONS);
+    let arm = builder.kitting("second_robot", 4.8);
+    let (belt, vehicle) = (0, 2);
+    builder.propose(belt, arm, arm, ("pick_zone", None, 0.1));
+    builder.propose(arm, vehicle, arm, ("stops", Some(0), 0.5));
+    let mut line = builder.line();
+    let pair = line.proposals.pop().unwrap();
+    line.withheld.push(Withheld { pair, list: line.nodes[arm].span });
+    let failing = line.proposals.iter_mut().find(|pair| pair.to == vehicle).unwrap();
+    failing.is_named = is_named;
+    check(&line).diagnostics.into_iter().map(|told| (told.code, told.help)).collect()
+}
+
+#[test]
+fn a_list_is_the_cause_unless_another_one_names_a_pair_that_does_not_meet() {
+    let help = "add \"agv1\" to \"hands_to\" of second_robot";
+    let told = told_of_left_out(false);
+    // The first arm still hands over to nothing.
+    assert!(told.iter().any(|(code, _)| *code == "E0401"), "{told:?}");
+    assert!(told.contains(&("E0402", help.into())) && told.len() == 2, "{told:?}");
+    let told = told_of_left_out(true);
+    assert!(told.iter().any(|(code, _)| *code == "E0401"), "{told:?}");
+    // The second arm still hands over to nothing.
+    assert!(told.contains(&("E0403", help.into())) && told.len() == 2, "{told:?}");
+}
+
+#[test]
+fn a_list_is_not_the_cause_where_items_would_go_in_a_circle() {
+    let told = |is_named: bool| {
+        let mut line = with(4.8, &default_agvs(), &STATIONS).line();
+        let (arm, vehicle) = (1, 2);
+        line.proposals.retain(|pair| pair.from != vehicle);
+        let given = line.proposals.iter_mut().find(|pair| pair.to == vehicle).unwrap();
+        given.is_named = is_named;
+        let pair = Proposal { from: vehicle, to: arm, ..given.clone() };
+        line.withheld.push(Withheld { pair, list: line.nodes[arm].span });
+        let told = check(&line).diagnostics;
+        told.into_iter().map(|told| format!("{} {}", told.code, told.help)).collect::<Vec<_>>()
+    };
+    assert_eq!(told(false), ["E0403 add a machine that takes from it, or remove it"]);
+    assert_eq!(told(true), ["E0403 add \"agv1\" to \"takes_from\" of kitting_robot"]);
 }

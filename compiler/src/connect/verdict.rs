@@ -1,14 +1,21 @@
 //! What is wrong, said once for each cause.
 
 use super::flow::{Flow, Served};
-use super::{Failure, Line, Miss, Stage, most_suggestions};
+use super::{Failure, Line, Miss, Stage, most_suggestions, withheld};
 use crate::diagnostic::{Diagnostic, MOST, sort};
 use std::collections::HashSet;
 
 /// Places listed in a report; the data hold every pose.
 const LISTED: usize = 3;
 
-pub fn diagnostics(line: &Line, flow: &Flow, stands: &[bool], failures: &[Failure]) -> Vec<Diagnostic> {
+/// `met` are the pairs that a list of the layout keeps apart, and that would meet.
+pub fn diagnostics(
+    line: &Line,
+    flow: &Flow,
+    stands: &[bool],
+    failures: &[Failure],
+    met: &[usize],
+) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     // Where no type hands anything over, nothing has to get anywhere.
     if line.nodes.is_empty() {
@@ -32,11 +39,14 @@ pub fn diagnostics(line: &Line, flow: &Flow, stands: &[bool], failures: &[Failur
         return found;
     }
     let failures = &failures[..failures.len().min(most_suggestions(line))];
+    found.extend(withheld::diagnostics(line, flow, &mut stands, &mut served, met));
     while let Some((failure, after)) = most_helpful(flow, &stands, failures, &served) {
         found.push(apart(line, failure, failures, &stands, &served, &after));
         join(&mut stands, failure);
         served = after;
     }
+    // Lists beside which another pair was named, which now is taken for changed.
+    found.extend(withheld::diagnostics(line, flow, &mut stands, &mut served, met));
     found.extend(left_alone(line, flow, &served));
     sort(&mut found);
     found
@@ -63,8 +73,7 @@ fn most_helpful<'a>(
         let mut with = stands.to_vec();
         join(&mut with, failure);
         let after = flow.served(&with);
-        let gain =
-            newly(&served.supplied, &after.supplied).len() + newly(&served.drained, &after.drained).len();
+        let gain = gain(served, &after);
         let better = match &best {
             None => gain > 0,
             Some((most, other, _)) => gain > *most || (gain == *most && worst_mm(failure) < worst_mm(other)),
@@ -76,7 +85,12 @@ fn most_helpful<'a>(
     best.map(|(_, failure, after)| (failure, after))
 }
 
-fn newly(before: &[bool], after: &[bool]) -> Vec<usize> {
+/// How much more is connected after a change.
+pub fn gain(before: &Served, after: &Served) -> usize {
+    newly(&before.supplied, &after.supplied).len() + newly(&before.drained, &after.drained).len()
+}
+
+pub fn newly(before: &[bool], after: &[bool]) -> Vec<usize> {
     (0..before.len()).filter(|n| after[*n] && !before[*n]).collect()
 }
 
@@ -130,13 +144,8 @@ fn apart(
         diagnostic = diagnostic.note(format!("and {} more poses", failure.misses.len() - listed.len()));
     }
     let starved = newly(&served.supplied, &after.supplied);
-    if !starved.is_empty() {
-        diagnostic = diagnostic.note(format!("no item gets to {}", names(line, &starved)));
-    }
     let stuck = newly(&served.drained, &after.drained);
-    if !stuck.is_empty() {
-        diagnostic = diagnostic.note(format!("no item from {} ever leaves the layout", names(line, &stuck)));
-    }
+    diagnostic = way_notes(diagnostic, line, &starved, &stuck);
     let also: Vec<String> = failures
         .iter()
         .filter(|other| other.proposal != failure.proposal && !stands[other.proposal])
@@ -191,6 +200,17 @@ fn apart(
             passive.name, arm.name
         )),
     }
+}
+
+/// To which machines no item gets, and from which none leaves.
+pub fn way_notes(mut diagnostic: Diagnostic, line: &Line, starved: &[usize], stuck: &[usize]) -> Diagnostic {
+    if !starved.is_empty() {
+        diagnostic = diagnostic.note(format!("no item gets to {}", names(line, starved)));
+    }
+    if !stuck.is_empty() {
+        diagnostic = diagnostic.note(format!("no item from {} ever leaves the layout", names(line, stuck)));
+    }
+    diagnostic
 }
 
 /// Nodes that are on no path even if every pair met.
@@ -282,6 +302,6 @@ fn millimetres(mm: f64) -> String {
     format!("{} mm", mm.ceil())
 }
 
-fn names(line: &Line, nodes: &[usize]) -> String {
+pub fn names(line: &Line, nodes: &[usize]) -> String {
     nodes.iter().map(|n| line.nodes[*n].name.as_str()).collect::<Vec<_>>().join(", ")
 }

@@ -20,7 +20,7 @@ pub struct Options<'a> {
 /// A device text with a device for each track of the file.
 pub fn import(sources: &Sources, file: FileId, options: &Options) -> Result<Imported, Vec<Diagnostic>> {
     let (json, diagnostics) = json::parse(&sources.file(file).text, file);
-    let mut decoder = Decoder { diagnostics };
+    let mut decoder = Decoder::new(diagnostics);
     let network = json.and_then(|json| read::network(&mut decoder, &json, options.vehicle));
     let tracks = network.as_ref().and_then(|network| track::find(&mut decoder, network));
     let mut diagnostics = decoder.diagnostics;

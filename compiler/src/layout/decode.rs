@@ -4,7 +4,7 @@ use super::json::{Json, Member, Value};
 use crate::diagnostic::{Diagnostic, MOST, collect, suggestion};
 use crate::naming::letters::in_ascii;
 use crate::source::{Span, Spanned};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 
@@ -12,6 +12,8 @@ use std::ops::RangeInclusive;
 #[derive(Default)]
 pub struct Decoder {
     pub diagnostics: Vec<Diagnostic>,
+    /// Where keys stand that their objects may have: none of them is another key misspelt.
+    known: HashSet<Span>,
 }
 
 impl Value {
@@ -76,6 +78,10 @@ pub fn instead(name: &str, known: &[&str]) -> String {
 }
 
 impl Decoder {
+    pub fn new(diagnostics: Vec<Diagnostic>) -> Self {
+        Self { diagnostics, ..Self::default() }
+    }
+
     /// Whether further errors are not reported.
     pub fn is_full(&self) -> bool {
         self.diagnostics.len() >= MOST
@@ -230,10 +236,11 @@ impl Decoder {
 
     /// None of these keys is there, of which one is required; a key that is one of them but for its spelling is the place.
     pub fn missing(&mut self, members: &[Member], keys: &[&str], place: Span, what: impl Display) {
-        let written = members.iter().map(|member| member.key.value.as_str());
+        let unknown = members.iter().map(|member| &member.key).filter(|key| !self.known.contains(&key.span));
+        let written = unknown.clone().map(|key| key.value.as_str());
         let near = keys.iter().find_map(|key| Some((*key, suggestion(key, written.clone())?)));
-        let misspelt = near.and_then(|(_, near)| members.iter().find(|member| member.key.value == near));
-        let place = misspelt.map_or(Span { end: place.start + 1, ..place }, |member| member.key.span);
+        let misspelt = near.and_then(|(_, near)| unknown.clone().find(|key| key.value == near));
+        let place = misspelt.map_or(Span { end: place.start + 1, ..place }, |key| key.span);
         let quoted =
             |behind: &str| -> Vec<String> { keys.iter().map(|key| format!("\"{key}\"{behind}")).collect() };
         let help = match near {
@@ -274,7 +281,11 @@ impl Decoder {
         what: impl Display,
         elsewhere: impl Fn(&str) -> Option<String>,
     ) {
-        for key in keys.filter(|k| !known.contains(&k.value.as_str())) {
+        for key in keys {
+            if known.contains(&key.value.as_str()) {
+                self.known.insert(key.span);
+                continue;
+            }
             if self.is_full() {
                 return;
             }

@@ -11,7 +11,7 @@ pub(crate) mod read;
 pub mod routes;
 
 pub use machine::{machine, numbers, obstacle};
-pub use object::{Object, Part};
+pub use object::{Names, Object, Part};
 pub use paths::OUTSIDE;
 pub use read::{KEYS, Reading, parse};
 pub use routes::Routes;

@@ -34,9 +34,12 @@ pub struct Object {
     /// All keys that depend on the device.
     pub members: Vec<Member>,
     pub parameters: Vec<(Spanned<String>, Json)>,
-    pub takes_from: Option<Vec<Spanned<String>>>,
-    pub hands_to: Option<Vec<Spanned<String>>>,
+    pub takes_from: Option<Names>,
+    pub hands_to: Option<Names>,
 }
+
+/// A list of names of other objects, and where it stands.
+pub type Names = Spanned<Vec<Spanned<String>>>;
 
 /// Keys that every object may have.
 pub const COMMON_KEYS: [&str; 7] = ["name", "type", "pose", "at", "parameters", "takes_from", "hands_to"];
@@ -151,8 +154,8 @@ impl Decoder {
             }
         };
         let parameters = find(members, "parameters").and_then(|j| self.object(j, "parameters"));
-        let takes_from = find(members, "takes_from").and_then(|j| self.texts(j, "takes_from"));
-        let hands_to = find(members, "hands_to").and_then(|j| self.texts(j, "hands_to"));
+        let takes_from = find(members, "takes_from").and_then(|j| self.names(j, "takes_from"));
+        let hands_to = find(members, "hands_to").and_then(|j| self.names(j, "hands_to"));
         let size = find(members, "box").and_then(|j| match part {
             Part::Stationary => self.size(j),
             Part::Robot => {
@@ -180,6 +183,10 @@ impl Decoder {
             takes_from,
             hands_to,
         })
+    }
+
+    fn names(&mut self, json: &Json, key: &str) -> Option<Names> {
+        self.texts(json, key).map(|value| Spanned { value, span: json.span })
     }
 
     fn box_of_robot(&mut self, json: &Json, robot: &str) {

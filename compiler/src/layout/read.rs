@@ -25,7 +25,7 @@ pub type Reading = (Option<Layout>, Vec<Diagnostic>);
 pub fn parse(sources: &Sources, file: FileId) -> Reading {
     let source = sources.file(file);
     let (json, diagnostics) = json::parse(&source.text, file);
-    let mut decoder = Decoder { diagnostics };
+    let mut decoder = Decoder::new(diagnostics);
     let layout = json.and_then(|json| decoder.layout(&json, &source.name));
     sort(&mut decoder.diagnostics);
     (layout, decoder.diagnostics)
@@ -94,7 +94,7 @@ impl Decoder {
         for object in objects {
             let own = object.name.value.as_str();
             for (key, list) in [("takes_from", &object.takes_from), ("hands_to", &object.hands_to)] {
-                for name in list.iter().flatten() {
+                for name in list.iter().flat_map(|list| &list.value) {
                     if self.is_full() {
                         return;
                     }

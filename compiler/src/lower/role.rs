@@ -2,7 +2,7 @@
 
 use super::bind::Robot;
 use super::{Apart, Verdict, work};
-use crate::connect::{self, Connected, Ground, Node, Proposal, Site};
+use crate::connect::{self, Connected, Ground, Node, Proposal, Site, Withheld};
 use crate::device::Heights;
 use crate::diagnostic::{Diagnostic, collect};
 use crate::executor::Executor;
@@ -10,10 +10,10 @@ use crate::ir::{
     self, Automaton, AutomatonId, Direction, Handover, Index, Instance, InterfaceId, Model, Role, RoleKind,
     System, TextPart, Value,
 };
-use crate::layout::{self, Layout};
+use crate::layout::{self, Layout, Names};
 use crate::parallel::{LEAST, in_parts};
 use crate::scenario::{Number, Scenario};
-use crate::source::{Span, Spanned};
+use crate::source::Span;
 use runtime_sim::machine::Machine;
 use std::cell::Cell;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -22,6 +22,14 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 const MOST_PAIRS: usize = 100_000;
 /// Pairs that are tried since a machine is cut off, however far the two are apart.
 const MOST_FAR: usize = 2000;
+
+/// What `takes_from` or `hands_to` of an arm says of a machine.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Listed {
+    Named,
+    LeftOut,
+    NoList,
+}
 
 /// The machines of a layout, bound to a model of just their types.
 pub struct Line<'a> {
@@ -159,8 +167,15 @@ impl<'a> Line<'a> {
         });
         let near = |arm: usize, passive: usize| ground[arm].is_near(ground[passive]);
         let span = Span::new(self.layout.file, 0, 0);
-        let mut line = connect::Line { span, nodes, proposals: Vec::new(), kinds: self.kinds.clone() };
-        (line.proposals, self.asked_by) = self.proposals(&nodes_of, |arm, passive, _| near(arm, passive));
+        let mut line = connect::Line {
+            span,
+            nodes,
+            proposals: Vec::new(),
+            withheld: Vec::new(),
+            kinds: self.kinds.clone(),
+        };
+        (line.proposals, self.asked_by) =
+            self.proposals(&nodes_of, false, |arm, passive, _| near(arm, passive));
         if line.proposals.len() > MOST_PAIRS {
             self.too_many_pairs(&line);
             return None;
@@ -174,15 +189,22 @@ impl<'a> Line<'a> {
             let cut_off = |nodes: &[usize]| nodes.iter().map(|n| nodes_of[*n]).collect::<BTreeSet<usize>>();
             let far = Cell::new(0);
             let (starved, stuck) = (cut_off(&report.unreachable), cut_off(&report.dead_ends));
-            (line.proposals, self.asked_by) = self.proposals(&nodes_of, |arm, passive, kind| {
+            let is_cut_off = |arm: usize, passive: usize, kind: RoleKind| {
                 let (from, to) = if kind == RoleKind::Takes { (passive, arm) } else { (arm, passive) };
+                starved.contains(&to) || stuck.contains(&from)
+            };
+            (line.proposals, self.asked_by) = self.proposals(&nodes_of, false, |arm, passive, kind| {
                 let is_far = || {
-                    let is_wanted = far.get() < MOST_FAR && (starved.contains(&to) || stuck.contains(&from));
+                    let is_wanted = far.get() < MOST_FAR && is_cut_off(arm, passive, kind);
                     far.set(far.get() + usize::from(is_wanted));
                     is_wanted
                 };
                 near(arm, passive) || is_far()
             });
+            let (left_out, _) = self.proposals(&nodes_of, true, |arm, passive, kind| {
+                near(arm, passive) && is_cut_off(arm, passive, kind)
+            });
+            line.withheld = left_out.into_iter().filter_map(|pair| self.withheld(&nodes_of, pair)).collect();
             report = connect::check(&line);
         }
         self.nodes = nodes_of;
@@ -207,10 +229,12 @@ impl<'a> Line<'a> {
     }
 
     /// The pairs that the types propose and that are wanted, by arm, passive machine and kind of role; and
-    /// the robot and the role that each is for. `nodes` are the robots that are nodes.
+    /// the robot and the role that each is for. `nodes` are the robots that are nodes. With `left_out` the
+    /// pairs that `takes_from` and `hands_to` keep apart, otherwise the others.
     fn proposals(
         &self,
         nodes: &[usize],
+        left_out: bool,
         is_wanted: impl Fn(usize, usize, RoleKind) -> bool,
     ) -> (Vec<Proposal>, Vec<(usize, usize)>) {
         let mut node_of = vec![None; self.robots.len()];
@@ -220,8 +244,8 @@ impl<'a> Line<'a> {
         let (mut proposals, mut asked_by) = (Vec::new(), Vec::new());
         for arm in 0..self.robots.len() {
             for (index, role) in self.automaton(arm).roles.iter().enumerate() {
-                for passive in self.candidates(arm, role) {
-                    if !is_wanted(arm, passive, role.kind) {
+                for (passive, listed) in self.candidates(arm, role) {
+                    if (listed == Listed::LeftOut) != left_out || !is_wanted(arm, passive, role.kind) {
                         continue;
                     }
                     let (Some(arm_node), Some(passive_node)) = (node_of[arm], node_of[passive]) else {
@@ -235,7 +259,8 @@ impl<'a> Line<'a> {
                     if proposals.len() > MOST_PAIRS {
                         return (proposals, asked_by);
                     }
-                    proposals.push(Proposal { from, to, arm: arm_node, site, rule: role.place });
+                    let (rule, is_named) = (role.place, listed == Listed::Named);
+                    proposals.push(Proposal { from, to, arm: arm_node, site, rule, is_named });
                     asked_by.push((arm, index));
                 }
             }
@@ -243,18 +268,20 @@ impl<'a> Line<'a> {
         (proposals, asked_by)
     }
 
-    /// Robots that a role of an arm could have, by their types and by the layout's `takes_from` and `hands_to`.
-    fn candidates<'l>(&'l self, arm: usize, role: &Role) -> Vec<usize> {
-        let object = &self.robots[arm].object;
-        let (direction, narrowed) = match role.kind {
-            RoleKind::Takes => (Direction::Offers, &object.takes_from),
-            RoleKind::Hands => (Direction::Accepts, &object.hands_to),
+    /// Robots that a role of an arm could have by their types, and what `takes_from` or `hands_to` of the
+    /// layout says of them.
+    fn candidates<'l>(&'l self, arm: usize, role: &Role) -> Vec<(usize, Listed)> {
+        let direction = match role.kind {
+            RoleKind::Takes => Direction::Offers,
+            RoleKind::Hands => Direction::Accepts,
             RoleKind::Serves | RoleKind::Knows => return Vec::new(),
         };
-        let names = |names: &'l Vec<Spanned<String>>| names.iter().map(|n| n.value.as_str()).collect();
-        let narrowed: Option<HashSet<&str>> = narrowed.as_ref().map(names);
-        let allowed = |r: usize| {
-            narrowed.as_ref().is_none_or(|names| names.contains(self.robots[r].object.name.value.as_str()))
+        let names = |names: &'l Names| names.value.iter().map(|n| n.value.as_str()).collect();
+        let narrowed: Option<HashSet<&str>> = self.narrowed(arm, role.kind).map(names);
+        let listed = |r: usize| match &narrowed {
+            Some(names) if names.contains(self.robots[r].object.name.value.as_str()) => Listed::Named,
+            Some(_) => Listed::LeftOut,
+            None => Listed::NoList,
         };
         let fits = |automaton: &Automaton| {
             let place = automaton
@@ -264,7 +291,24 @@ impl<'a> Line<'a> {
                 && role.also.iter().all(|i| automaton.implementing(*i).is_some())
         };
         let fits: Vec<bool> = self.model.automata.iter().map(fits).collect();
-        (0..self.robots.len()).filter(|r| *r != arm && fits[self.automata[*r].0] && allowed(*r)).collect()
+        let fitting = (0..self.robots.len()).filter(|r| *r != arm && fits[self.automata[*r].0]);
+        fitting.map(|r| (r, listed(r))).collect()
+    }
+
+    /// The list of the layout that restricts a kind of role of an arm.
+    fn narrowed(&self, arm: usize, kind: RoleKind) -> Option<&Names> {
+        let object = self.robots[arm].object;
+        match kind {
+            RoleKind::Takes => object.takes_from.as_ref(),
+            RoleKind::Hands => object.hands_to.as_ref(),
+            RoleKind::Serves | RoleKind::Knows => None,
+        }
+    }
+
+    fn withheld(&self, nodes: &[usize], pair: Proposal) -> Option<Withheld> {
+        let kind = if pair.arm == pair.to { RoleKind::Takes } else { RoleKind::Hands };
+        let list = self.narrowed(nodes[pair.arm], kind)?.span;
+        Some(Withheld { pair, list })
     }
 
     fn site(&self, passive: usize, role: &Role) -> Option<Site> {
@@ -420,7 +464,7 @@ impl<'a> Line<'a> {
     fn names_both(&self, arm: &str, place: &str) -> bool {
         let arm = self.robots.iter().find(|robot| robot.object.name.value == arm);
         let names =
-            |list: &Option<Vec<Spanned<String>>>| list.iter().flatten().any(|name| name.value == place);
+            |list: &Option<Names>| list.iter().flat_map(|list| &list.value).any(|name| name.value == place);
         arm.is_some_and(|arm| names(&arm.object.takes_from) && names(&arm.object.hands_to))
     }
 

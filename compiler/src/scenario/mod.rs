@@ -103,6 +103,8 @@ pub struct Supply {
     /// Of a supply that is shuffled and of everything else that is drawn in a run.
     pub seed: u32,
     pub items: Items,
+    /// How many times each list of the file stands in `items`.
+    pub times: u32,
 }
 
 impl Orders {

@@ -24,7 +24,7 @@ const SEED: u32 = 1;
 /// There is a scenario only without any error.
 pub fn parse(sources: &Sources, file: FileId) -> (Option<Scenario>, Vec<Diagnostic>) {
     let (json, diagnostics) = json::parse(&sources.file(file).text, file);
-    let mut decoder = Decoder { diagnostics };
+    let mut decoder = Decoder::new(diagnostics);
     let scenario = json.and_then(|json| decoder.scenario(&json));
     sort(&mut decoder.diagnostics);
     (scenario.filter(|_| decoder.diagnostics.is_empty()), decoder.diagnostics)
@@ -40,7 +40,7 @@ pub fn kinds(sources: &Sources, file: FileId) -> Option<Vec<String>> {
     if !diagnostics.is_empty() {
         return None;
     }
-    let mut decoder = Decoder { diagnostics };
+    let mut decoder = Decoder::new(diagnostics);
     let json = json?;
     let list = find(decoder.object(&json, "a scenario")?, "kinds")?;
     let kinds = decoder.kinds(list)?;
@@ -90,6 +90,7 @@ impl Decoder {
                 every_s: EVERY_S,
                 seed: SEED,
                 items: Items::Shuffled { surplus: SURPLUS },
+                times: 1,
             }),
         };
         Some(Scenario {

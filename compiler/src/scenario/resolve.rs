@@ -434,14 +434,20 @@ impl<'a> Resolver<'a> {
                         ("the goal", "the line could not reach its goal: no process makes this kind")
                     }
                 };
+                let times = self.scenario.supply.times;
+                let added = (needed - brought).div_ceil(u64::from(times));
                 let few = format!("the belts bring too few parts \"{name}\": {brought} of {needed}");
-                let parts = if needed - brought == 1 { "part" } else { "parts" };
+                let parts = if added == 1 { "part" } else { "parts" };
+                let repeated = match times {
+                    1 => String::new(),
+                    _ => format!(", which is repeated {times} times"),
+                };
                 collect(
                     &mut self.diagnostics,
                     Diagnostic::new("E0138", self.scenario.supply.span, few)
                         .other(place, what)
                         .note(could)
-                        .help(format!("add {} {parts} \"{name}\" to \"items\"", needed - brought)),
+                        .help(format!("add {added} {parts} \"{name}\" to \"items\"{repeated}")),
                 );
             }
         }

@@ -12,6 +12,7 @@ pub const MOST_ITEMS: u32 = 1_000_000;
 impl Decoder {
     pub(super) fn goal(&mut self, json: &Json, kinds: &[&str]) -> Vec<Collected<Spanned<String>>> {
         let Some(members) = self.object(json, "goal") else { return Vec::new() };
+        let reported = self.diagnostics.len();
         let sinks = members.iter().filter_map(|member| {
             let what = format!("goal of {}", member.key.value);
             let wanted = self.object(&member.value, &what)?;
@@ -23,8 +24,9 @@ impl Decoder {
             Some(Collected { sink: member.key.clone(), items: items? })
         });
         let sinks: Vec<_> = sinks.collect();
+        let is_read = self.diagnostics.len() == reported;
         let asks = |sink: &Collected<_>| sink.items.iter().any(|number| *number > 0);
-        if sinks.len() == members.len() && !sinks.iter().any(asks) {
+        if is_read && !sinks.iter().any(asks) {
             self.report(
                 Diagnostic::new("E0145", json.span, "the goal asks for no item")
                     .help("write how many items of which kind each sink should collect"),

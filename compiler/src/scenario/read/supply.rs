@@ -34,6 +34,7 @@ impl Decoder {
                 every_s,
                 seed,
                 items: Items::Shuffled { surplus },
+                times: 1,
             });
         };
         if let Some(surplus) = members.iter().find(|m| m.key.value == "surplus") {
@@ -66,7 +67,7 @@ impl Decoder {
             return None;
         }
         let items = items.repeated(times as usize);
-        Some(Supply { span: json.span, first_s, every_s, seed, items })
+        Some(Supply { span: json.span, first_s, every_s, seed, items, times })
     }
 
     fn items(&mut self, json: &Json, kinds: &[&str]) -> Option<Vec<usize>> {
