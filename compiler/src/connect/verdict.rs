@@ -145,7 +145,7 @@ fn apart(
     }
     let starved = newly(&served.supplied, &after.supplied);
     let stuck = newly(&served.drained, &after.drained);
-    diagnostic = way_notes(diagnostic, line, &starved, &stuck);
+    diagnostic = flow_notes(diagnostic, line, &starved, &stuck);
     let also: Vec<String> = failures
         .iter()
         .filter(|other| other.proposal != failure.proposal && !stands[other.proposal])
@@ -203,7 +203,7 @@ fn apart(
 }
 
 /// To which machines no item gets, and from which none leaves.
-pub fn way_notes(mut diagnostic: Diagnostic, line: &Line, starved: &[usize], stuck: &[usize]) -> Diagnostic {
+pub fn flow_notes(mut diagnostic: Diagnostic, line: &Line, starved: &[usize], stuck: &[usize]) -> Diagnostic {
     if !starved.is_empty() {
         diagnostic = diagnostic.note(format!("no item gets to {}", names(line, starved)));
     }

@@ -2,7 +2,7 @@
 
 use super::flow::{Flow, Served};
 use super::poses::Reachable;
-use super::verdict::{gain, names, newly, way_notes};
+use super::verdict::{flow_notes, gain, names, newly};
 use super::{Line, Proposal};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
@@ -171,7 +171,7 @@ impl Cause {
         let behind = |nodes: &[usize]| -> Vec<usize> {
             nodes.iter().copied().filter(|node| !self.cut_off.contains(node)).collect()
         };
-        diagnostic = way_notes(diagnostic, line, &behind(&self.starved), &behind(&self.stuck));
+        diagnostic = flow_notes(diagnostic, line, &behind(&self.starved), &behind(&self.stuck));
         let quoted = self.left_out.iter().map(|node| format!("\"{}\"", line.nodes[*node].name));
         let quoted: Vec<String> = quoted.collect();
         diagnostic.help(format!("add {} to \"{key}\" of {arm}", quoted.join(", ")))
