@@ -80,7 +80,9 @@ impl Machine {
         let of_states = states.iter().zip(&other.states);
         (name, pose, parts, wiring) == (&other.name, &other.pose, &other.parts, &other.wiring)
             && (visits, states.len()) == (&other.visits, other.states.len())
-            && of_states.into_iter().all(|(state, other)| state.is_reported_as(other))
+            && of_states.into_iter().all(|(state, other)| {
+                state.is_reported_as(other) && state.awaits_answer == other.awaits_answer
+            })
             && monitor.has_same_words(&other.monitor)
     }
 

@@ -24,32 +24,6 @@ fn it_is_of_the_layout() {
     assert_ne!(own, number(&ariac("default").set("kitting.speed=0.5")));
 }
 
-/// A state that is inserted makes another state of a number, whether it is retained or not.
-#[test]
-fn that_of_all_variables_is_of_what_is_not_retained_too() {
-    let of = |text: &str| {
-        let texts = pair(text, ["filler", "vent"]);
-        compiled(&texts).project.expect("a layout that can be built").system.shape_of_variables()
-    };
-    let forgetful = FILLER_AND_VENT.replace("    retain all;\n", "");
-    let own = of(&forgetful);
-    assert_eq!(own, of(&forgetful));
-    let changes = [
-        (
-            "    resume state Closed {",
-            "    any state { when n = 77 -> Between {} }\n    state Between { when wanted -> Closed {} }\n    resume state Closed {",
-        ),
-        ("n: int 0..100", "n: int 0..200"),
-        ("in wanted: bool", "in asked: bool = pedal.on;\n    in wanted: bool"),
-    ];
-    for (old, new) in changes {
-        assert!(forgetful.contains(old), "{old}");
-        assert_ne!(own, of(&forgetful.replacen(old, new, 1)), "{new}");
-    }
-    // A condition may change.
-    assert_eq!(own, of(&forgetful.replace("when not wanted", "when not wanted and n > 0")));
-}
-
 /// The Structured Text, the compiled Rust, and the Rust of a layout that is read have the same number.
 #[test]
 fn all_controllers_have_it() {

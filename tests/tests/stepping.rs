@@ -75,6 +75,7 @@ pub fn cases() -> Vec<Case> {
         line.may_touch.clear();
         line.scenario.time_limit_s = if is_full_campaign() { 4000.0 } else { 800.0 };
     }));
+    cases.push(case("an alarm of one scan", alarmed(), |_| {}));
     cases.push(case("time limit", ariac("default"), |line| line.scenario.time_limit_s = 123.456));
     cases.push(case("contact", prototype("default"), |line| line.may_touch.clear()));
     if is_full_campaign() {
@@ -93,6 +94,27 @@ pub fn cases() -> Vec<Case> {
         }
     }
     cases
+}
+
+/// A machine that gives a command and raises an alarm which ends in the scan after, again and again.
+fn alarmed() -> Texts {
+    let device = "device shaker {
+            part arm = positioner { positions: [0, 0.5]; slides: point(0, 0, 1); speed: 0.5; };
+            out to: int 0..1;
+            command 1 go(to) = arm.to(to);
+        }
+        automaton Shaker on shaker {
+            local n: int 0..1;
+            keep n while n >= 0 else warn \"the position is another one\";
+            initial -> Going { go(0); }
+            state Going { when done -> Going { n := 1 - n; go(n); } }
+        }";
+    Texts {
+        layout: r#"{"robots": [{"name": "shaker", "type": "shaker", "pose": [0, 0, 0]}]}"#.into(),
+        specs: vec![device.into()],
+        scenario: Some(r#"{"time_limit_s": 20}"#.into()),
+        ..Texts::default()
+    }
 }
 
 /// A tank that is full after 8.1 s. By the numbers of the simulator its level is 2e-16 m below the rim then.

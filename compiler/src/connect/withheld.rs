@@ -8,6 +8,9 @@ use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use std::collections::HashSet;
 
+/// Of more pairs it is not looked whether they would meet.
+const MOST_TRIED: usize = 1000;
+
 /// What one list cuts off in one way.
 struct Cause {
     code: &'static str,
@@ -33,7 +36,7 @@ pub fn met<'a>(
 ) -> impl Iterator<Item = usize> + use<'a> {
     let unnamed = line.proposals.iter().zip(stands).filter(|(pair, stands)| **stands && !pair.is_named);
     let back: HashSet<[usize; 2]> = unnamed.map(|(pair, _)| [pair.to, pair.from]).collect();
-    let pairs = line.withheld.iter().map(|withheld| &withheld.pair).enumerate();
+    let pairs = line.withheld.iter().map(|withheld| &withheld.pair).enumerate().take(MOST_TRIED);
     let met =
         pairs.filter(move |(_, pair)| !back.contains(&[pair.from, pair.to]) && reachable.met(pair).is_some());
     met.map(|(number, _)| number)

@@ -38,25 +38,9 @@ impl System {
         shape.end()
     }
 
-    /// A number that changes when the variables of the controllers do, or their initial values: as
-    /// [`Self::shape_of_retained`], with the states, locals, cells and ports of all types.
-    pub fn shape_of_variables(&self) -> u32 {
+    /// A number that changes when the instances do: as [`Self::shape_of_retained`], without what is retained.
+    pub fn shape_of_instances(&self) -> u32 {
         let mut shape = Shape::BEGIN;
-        for automaton in &self.model.automata {
-            shape.text(&automaton.name);
-            automaton.states.iter().for_each(|state| shape.text(&state.name));
-            for local in &automaton.locals {
-                shape.value(&local.name, local.ty, &self.model);
-            }
-            for port in &automaton.device.ports {
-                let ty = Type { scalar: port.ty.into(), extent: port.extent.into() };
-                shape.value(&port.name, ty, &self.model);
-            }
-        }
-        for interface in &self.model.interfaces {
-            shape.text(&interface.name);
-            interface.cells.iter().for_each(|cell| shape.value(&cell.name, cell.ty, &self.model));
-        }
         self.add_instances(&mut shape);
         shape.end()
     }

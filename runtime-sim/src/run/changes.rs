@@ -112,7 +112,10 @@ impl Changes {
 
     /// Whether the last scan has changed a word of the outputs, counted through all machines.
     pub fn has_changed_output(&self, word: usize) -> bool {
-        self.changed.contains(&(self.of_trace + word))
+        // Those of the outputs follow one another behind all of the trace.
+        let word = self.of_trace + word;
+        let place = self.changed.partition_point(|changed| *changed < word);
+        self.changed.get(place) == Some(&word)
     }
 
     /// Time in its state of the machine whose stay is at this place of the trace, ms.

@@ -2,10 +2,11 @@
 
 use super::changes::Changes;
 use crate::line::Line;
+use crate::monitor::{ALARM_WORDS, Alarm};
 use crate::wiring::Drives;
 
 /// Nothing can, if each machine that has done something has given a new command, and is in a state that only the answer to
-/// it leaves, and no cell has changed, by which others could do something.
+/// it leaves; no cell has changed, by which others could do something; and no alarm, which a check may raise for one scan.
 #[derive(Clone)]
 pub struct Settled<'a> {
     line: &'a Line,
@@ -35,8 +36,11 @@ impl<'a> Settled<'a> {
             let machine = self.begins.partition_point(|begin| *begin <= word).checked_sub(1)?;
             let described = self.line.machines.get(machine)?;
             let (state, command) = (described.states.get(*states.get(machine)?)?, self.commands[machine]?);
-            let is_free = described.monitor.stopped.is_none() && !described.monitor.cells.contains(&word);
-            Some(is_free && state.awaits_answer && changes.has_changed_output(command))
+            let monitor = &described.monitor;
+            let is_alarm = |alarm: &Alarm| (alarm.word..alarm.word + ALARM_WORDS).contains(&word);
+            let is_own = !monitor.cells.contains(&word) && !monitor.alarms.iter().any(is_alarm);
+            let may_go_on = monitor.stopped.is_some() || !state.awaits_answer;
+            Some(is_own && !may_go_on && changes.has_changed_output(command))
         };
         !self.begins.is_empty() && changes.of_trace().all(|word| awaits_answer(word) == Some(true))
     }

@@ -13,6 +13,7 @@ use super::name::Name;
 use super::names::ELEMENT;
 use super::value::NOT_RETAINED;
 use crate::ir::InterfaceId;
+use crate::version;
 
 /// The first scan begins with what was retained.
 pub const WARM: &str = "warm_start";
@@ -21,8 +22,8 @@ const OF: &str = "retained_of";
 /// They are all of one scan.
 const WHOLE: &str = "retained_whole";
 
-/// Of which program the values of all variables are. It is a variable of the program itself, and not retained: where a download
-/// gives its instances initial values, it is one of these.
+/// Of which program the values of all variables are. It is a variable of MAIN, and not retained: where a download gives the
+/// instances of the blocks their initial values, it gets its own.
 const VALUES_OF: &str = "values_of";
 
 /// In what is retained as a whole: a block, or the cells of an interface. It is false where that was not kept.
@@ -61,18 +62,30 @@ pub fn values_of() -> Variable {
     Variable::new(VALUES_OF, Basic::Dint).with_comment("identifies the program of the last scan; 0: none")
 }
 
-/// The first statements of MAIN.
+/// Another one if a file, a parameter, or autogen is another one. Never 0.
+fn program_number(shared: Shared) -> i32 {
+    let number = shared.sources.hash() ^ shared.system.shape_of_instances() as i32 ^ version::number();
+    number.max(1)
+}
+
+/// The first statement of MAIN.
 pub fn begin_anew(shared: Shared) -> Stmt {
-    let shape = || Ex::Int(shared.system.shape_of_variables() as i32);
-    let stopped = vec![
+    let number = || Ex::Int(program_number(shared));
+    let mut anew = vec![
         Stmt::Comment(
-            "The first scan, or the first after a download or an online change of variables.".into(),
+            "The first scan of this program: after power-up, a download, or an online change.".into(),
         ),
         assign("init_done", Ex::Bool(false)),
         assign("running", Ex::Bool(false)),
-        assign(VALUES_OF, shape()),
+        Stmt::Comment("No edge.".into()),
+        assign("start_before", Ex::Bool(true)),
+        assign("reset_before", Ex::Bool(true)),
     ];
-    when(binary("<>", name(VALUES_OF), shape()), stopped)
+    if !shared.system.model.retains() {
+        anew.extend([assign("fault_code", Ex::Int(0)), assign("fault_robot", Ex::Int(-1))]);
+    }
+    anew.push(assign(VALUES_OF, number()));
+    when(binary("<>", name(VALUES_OF), number()), anew)
 }
 
 /// What follows. `retained` are the instances of blocks that have a [`mark`].
