@@ -4,7 +4,8 @@ use super::json::{Json, Member, Value};
 use crate::diagnostic::{Diagnostic, MOST, collect, suggestion};
 use crate::naming::letters::in_ascii;
 use crate::source::{Span, Spanned};
-use std::collections::{BTreeMap, HashSet};
+use rustc_hash::FxHashSet;
+use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 
@@ -13,7 +14,7 @@ use std::ops::RangeInclusive;
 pub struct Decoder {
     pub diagnostics: Vec<Diagnostic>,
     /// Where keys stand that their objects may have: none of them is another key misspelt.
-    known: HashSet<Span>,
+    known: FxHashSet<Span>,
 }
 
 impl Value {

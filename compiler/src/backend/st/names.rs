@@ -3,7 +3,7 @@
 use super::alarm::OLDEST_ACKNOWLEDGED;
 use super::declaration::suffixes;
 use super::name::Name;
-use super::restart::KEPT;
+use super::restart::{KEPT, VALUES_OF};
 use super::role::{self, Members};
 use super::walk;
 use super::watchdog::PANEL_PERMIT;
@@ -86,7 +86,7 @@ const TAKEN: &[&str] = &[
 pub const ELEMENT: &str = "element_no";
 const LOCAL: &[&str] = &["robot", "state", "elapsed", "done", "failed", "found", KEPT, ELEMENT];
 const PROGRAM: &[&str] = &[
-    "values_of",
+    VALUES_OF,
     "start_now",
     "reset_now",
     "start_before",

@@ -24,7 +24,7 @@ const WHOLE: &str = "retained_whole";
 
 /// Of which program the values of all variables are. It is a variable of MAIN, and not retained: where a download gives the
 /// instances of the blocks their initial values, it gets its own.
-const VALUES_OF: &str = "values_of";
+pub const VALUES_OF: &str = "values_of";
 
 /// In what is retained as a whole: a block, or the cells of an interface. It is false where that was not kept.
 pub const KEPT: &str = "kept";
